@@ -13,6 +13,7 @@
 #include "asset/loader/loader.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "frame/sizes.h"
 #include "frame/stages.h"
 #include "scene/instant.h"
 #include "scene/pool_layout.h"
@@ -241,7 +242,7 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
     bool ok = kiln_device_make_current(device, error) &&
               kiln_techniques_choose(&device->info, params->techniques, params->technique_count,
                                      &loop->techniques, error) &&
-              check_limits(loop, error);
+              kiln_sizes_check(scene, &loop->techniques, error) && check_limits(loop, error);
     device->work_group_size = params->work_group_size;
     loop->threads = ok ? kiln_threads_create(params->threads) : NULL;
     if (ok && !loop->threads)

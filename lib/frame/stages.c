@@ -6,20 +6,20 @@
 #include "base/error.h"
 
 /* Returns a mask of the systems with a blend mode, without systems of opaque particles. */
-static uint32_t transparent_systems(const struct kiln_stages *s, enum kiln_blend blend)
+static uint64_t transparent_systems(const struct kiln_stages *s, enum kiln_blend blend)
 {
     const struct kiln_scene *scene = s->scene;
-    uint32_t mask = 0;
+    uint64_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
-            mask |= 1u << i;
+            mask |= UINT64_C(1) << i;
     }
     return mask & ~s->opaque_systems;
 }
 
 /* Describes a pass that sorts the chosen systems and draws them into a framebuffer. */
 struct particle_pass {
-    uint32_t systems;
+    uint64_t systems;
     bool by_depth;
     struct kiln_framebuffer *framebuffer;
     bool keep_bloom; /* do not clear the bloom image */
@@ -94,7 +94,7 @@ bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *befor
     return pool && advance_sort(stages, pool, error);
 }
 
-static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_depth, uint32_t *count,
+static bool sort_particles(struct kiln_stages *s, uint64_t systems, bool by_depth, uint32_t *count,
                            struct kiln_error *error)
 {
     struct kiln_sort_params params = sort_params(&s->moment.view);
@@ -152,8 +152,8 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
  * their own where the stage cannot keep them apart. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
-    uint32_t fire = transparent_systems(s, KILN_BLEND_ADD);
-    uint32_t smoke = transparent_systems(s, KILN_BLEND_ALPHA);
+    uint64_t fire = transparent_systems(s, KILN_BLEND_ADD);
+    uint64_t smoke = transparent_systems(s, KILN_BLEND_ALPHA);
     bool fire_covers = s->scene->post.compose == KILN_COMPOSE_ALPHA;
     bool by_fragment = s->scene->post.compose == KILN_COMPOSE_OIT && smoke != 0;
     struct particle_pass all = {.systems = fire | smoke,

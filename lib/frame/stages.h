@@ -22,7 +22,7 @@ struct kiln_stages {
     struct kiln_device *device; /* NULL if all stages run on the host */
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
-    uint32_t opaque_systems;  /* a bit for each system of opaque particles */
+    uint64_t opaque_systems;  /* a bit for each system of opaque particles */
     bool layers;              /* the output needs the layers of an EXR file */
     bool glow;                /* particles draw their glow into bloom_color */
     struct kiln_timer *timer; /* timer and caller are borrowed */

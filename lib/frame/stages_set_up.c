@@ -12,12 +12,12 @@ static GLenum target_format(const struct kiln_device *device)
     return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
 }
 
-static uint32_t opaque_systems(const struct kiln_scene *scene)
+static uint64_t opaque_systems(const struct kiln_scene *scene)
 {
-    uint32_t mask = 0;
+    uint64_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         if (scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look))
-            mask |= 1u << i;
+            mask |= UINT64_C(1) << i;
     }
     return mask;
 }

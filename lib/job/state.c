@@ -17,7 +17,7 @@
 
 /* The version of the file's format. The simulation has a version of its own, which the motion hash
  * covers. */
-enum { FORMAT = 1, MAX_HEAD = 1024, HASH_DIGITS = 64, VERSION_SIZE = 16 };
+enum { FORMAT = 1, MAX_HEAD = 2048, HASH_DIGITS = 64, VERSION_SIZE = 16 };
 
 enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
 

@@ -65,10 +65,4 @@ bool kiln_pool_copy_particles(struct kiln_pool *to, struct kiln_pool *from,
  * still zero. */
 uint32_t kiln_pool_used(const struct kiln_pool_system *system);
 
-/* Packs system and slot into 32 bits, as an entry of a draw list. slot: index in the whole record
- * buffer. */
-#define KILN_ENTRY(system, slot) ((uint32_t)(system) << 24 | (slot))
-#define KILN_ENTRY_SYSTEM(entry) ((entry) >> 24)
-#define KILN_ENTRY_SLOT(entry)   ((entry)&0xffffffu)
-
 #endif

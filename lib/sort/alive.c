@@ -43,24 +43,24 @@ static uint32_t blocks_of(uint32_t slots)
 }
 
 /* Returns how many blocks the chosen systems have. */
-static uint32_t count_blocks(const struct kiln_pool *pool, uint32_t systems)
+static uint32_t count_blocks(const struct kiln_pool *pool, uint64_t systems)
 {
     uint32_t blocks = 0;
     for (uint32_t i = 0; i < pool->system_count; i++) {
-        if (systems >> i & 1u)
+        if (systems >> i & 1)
             blocks += blocks_of(kiln_pool_used(&pool->systems[i]));
     }
     return blocks;
 }
 
 /* Dispatches the current program once for each chosen system that has used slots. */
-static void run_systems(struct kiln_alive *alive, const struct kiln_pool *pool, uint32_t systems)
+static void run_systems(struct kiln_alive *alive, const struct kiln_pool *pool, uint64_t systems)
 {
     uint32_t first_block = 0;
     for (uint32_t i = 0; i < pool->system_count; i++) {
         const struct kiln_pool_system *system = &pool->systems[i];
         uint32_t used = kiln_pool_used(system);
-        if (!(systems >> i & 1u) || used == 0)
+        if (!(systems >> i & 1) || used == 0)
             continue;
         glUniform1ui(SORT_AT_BASE, system->base);
         glUniform1ui(SORT_AT_CAPACITY, system->capacity);

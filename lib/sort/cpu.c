@@ -96,7 +96,7 @@ static size_t append_blocks(struct kiln_sort_block *blocks, size_t count, uint32
  * slot in use to the end of the system's slots, then from their start. Returns NULL with an
  * error. */
 static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const struct kiln_pool *pool,
-                                           uint32_t systems, size_t *count,
+                                           uint64_t systems, size_t *count,
                                            struct kiln_error *error)
 {
     *count = 0;
@@ -112,7 +112,7 @@ static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const str
     for (uint32_t i = 0; i < pool->system_count; i++) {
         const struct kiln_pool_system *system = &pool->systems[i];
         const uint32_t used = kiln_pool_used(system);
-        if (used == 0 || !(systems >> i & 1u))
+        if (used == 0 || !(systems >> i & 1))
             continue;
         const uint32_t oldest = (uint32_t)((system->next_serial - used) % system->capacity);
         const uint32_t base = system->base;

@@ -24,7 +24,7 @@ enum kiln_sort_order {
 struct kiln_sort_params {
     float3 eye;       /* camera position, m */
     float3 forward;   /* view direction, unit length */
-    uint32_t systems; /* bit i: system i takes part */
+    uint64_t systems; /* bit i: system i takes part */
     enum kiln_sort_order order;
 };
 

@@ -154,7 +154,7 @@ static void run_over_slots(struct kiln_sort_spread *spread, GLuint program,
     glUseProgram(program);
     set_systems(pool);
     glUniform1ui(SORT_AT_USED, pool->slot_count);
-    glUniform1ui(SORT_AT_CHOSEN, params->systems);
+    glUniform1ui(SORT_AT_CHOSEN, (uint32_t)params->systems);
     glUniform1ui(SORT_AT_REVERSE, params->order == KILN_SORT_FRONT_TO_BACK);
     kiln_device_dispatch(spread->device, pool->slot_count, SORT_BLOCK);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

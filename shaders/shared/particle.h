@@ -9,8 +9,15 @@
 
 #include "shared/platform.h"
 
-/* The most systems of a scene. It is below the 256 that the 8 bits of a draw entry can name. */
-#define KILN_MAX_SYSTEMS 16
+/* The most systems of a scene: as many as the bits of a draw entry can name. */
+#define KILN_MAX_SYSTEMS 64
+
+/* A draw entry packs the number of a system into the upper 6 bits of 32, and a slot of the whole
+ * buffer of records into the lower 26. */
+#define KILN_ENTRY_SLOT_BITS     26u
+#define KILN_ENTRY(system, slot) (UINT(system) << KILN_ENTRY_SLOT_BITS | (slot))
+#define KILN_ENTRY_SYSTEM(entry) ((entry) >> KILN_ENTRY_SLOT_BITS)
+#define KILN_ENTRY_SLOT(entry)   ((entry) & ((1u << KILN_ENTRY_SLOT_BITS) - 1u))
 
 /* The version of the steps. It is raised with every change of the state that steps compute, so that
  * states saved by earlier versions are not used. */

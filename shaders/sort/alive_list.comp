@@ -29,7 +29,7 @@ layout(location = SORT_AT_FORWARD) uniform vec3 forward; /* unit length */
 
 void write(uint place, uint slot)
 {
-    uint entry = system_of(slot) << 24u | slot;
+    uint entry = KILN_ENTRY(system_of(slot), slot);
 #ifndef PAIRED
     entries[place] = entry;
 #endif

@@ -196,7 +196,7 @@ static void expect_large(struct kiln_buffer *list, uint32_t count)
     }
 }
 
-/* The radix sort orders the longest list: a draw entry has 24 bits for a slot (KILN_ENTRY). */
+/* The radix sort orders 2^24 entries; no technique of GL takes more. */
 static void the_most_particles_are_sorted(void **state)
 {
     const uint32_t count = 1u << 24;

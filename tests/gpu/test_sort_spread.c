@@ -145,7 +145,7 @@ static void small_pools_are_spread(void **state)
         }
         const uint32_t *list = kiln_buffer_host(&entries, KILN_READ, &error);
         for (uint32_t k = 0; i == 2 && k < 3; k++)
-            assert_int_equal(list[k], ((const uint32_t[]){0x02000002, 1, 0})[k]);
+            assert_int_equal(list[k], ((const uint32_t[]){KILN_ENTRY(2, 2), 1, 0})[k]);
         kiln_buffer_finish(&entries);
         kiln_sort_destroy(&sort);
         kiln_pool_finish(&pool);

@@ -19,8 +19,9 @@ static void slots_follow_one_another(void **state)
     pool.systems[2].next_serial = 3;
     assert_int_equal(kiln_pool_used(&pool.systems[0]), 4);
     assert_int_equal(kiln_pool_used(&pool.systems[2]), 3);
-    assert_int_equal(KILN_ENTRY_SYSTEM(KILN_ENTRY(15, 0xfffffe)), 15);
-    assert_int_equal(KILN_ENTRY_SLOT(KILN_ENTRY(15, 0xfffffe)), 0xfffffe);
+    assert_int_equal(KILN_ENTRY_SYSTEM(KILN_ENTRY(KILN_MAX_SYSTEMS - 1, 0x3fffffe)),
+                     KILN_MAX_SYSTEMS - 1);
+    assert_int_equal(KILN_ENTRY_SLOT(KILN_ENTRY(KILN_MAX_SYSTEMS - 1, 0x3fffffe)), 0x3fffffe);
     kiln_pool_finish(&pool);
     assert_int_equal(pool.slot_count, 0);
 }

@@ -18,6 +18,10 @@
     "\"builtin:debris\", or the path of an image or video file, "                                  \
     "from the scene's folder and inside it; or a list of 1 to 8 of these"
 
+#define FOUR(name, first)                                                                          \
+    name first "0: {}, " name first "1: {}, " name first "2: {}, " name first "3: {}, "
+#define EIGHT(name) FOUR(name, "a") FOUR(name, "b")
+
 static const struct bad keys[] = {
     {"kiln: 1\n"
      "systems:\n"
@@ -131,7 +135,7 @@ static const struct bad types[] = {
      ":2:27: camera.position.2: expected a number from -100000 m to 100000 m, found 'x'"},
     {"kiln: 1\n"
      "systems: [a]\n",
-     ":2:10: systems: expected a mapping of up to 16 names to mappings of keys, found a list"},
+     ":2:10: systems: expected a mapping of up to 64 names to mappings of keys, found a list"},
     {"kiln: 1\n"
      "systems: {a: {collide: true}}\n",
      ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
@@ -223,9 +227,9 @@ static const struct bad limits[] = {
      "systems: {'': {}}\n",
      ":2:11: empty key"},
     {"kiln: 1\n"
-     "systems: {s0: {}, s1: {}, s2: {}, s3: {}, s4: {}, s5: {}, s6: {}, s7: {}, s8: {}, s9: {}, "
-     "s10: {}, s11: {}, s12: {}, s13: {}, s14: {}, s15: {}, s16: {}}\n",
-     ":2:10: systems: found 17 entries; at most 16 are allowed"},
+     "systems: {" EIGHT("a") EIGHT("b") EIGHT("c") EIGHT("d") EIGHT("e") EIGHT("f") EIGHT("g")
+         EIGHT("h") "one_more: {}}\n",
+     ":2:10: systems: found 65 entries; at most 64 are allowed"},
     {"kiln: 1\n"
      "systems: {a: {demitters: [{min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, "
      "1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], "

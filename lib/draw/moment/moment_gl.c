@@ -55,13 +55,20 @@ static bool make_buffers(const struct kiln_moment *moment, struct kiln_error *er
            kiln_buffer_upload(&gl->keys, keys, error);
 }
 
+/* Returns the rows of the look table that the scene's systems have; a texture has one at least. */
+static GLsizei count_rows(const struct kiln_moment *moment)
+{
+    const uint32_t systems = moment->scene->system_count;
+    return (GLsizei)((systems ? systems : 1) * KILN_LOOK_ROWS);
+}
+
 static bool make(const struct kiln_moment *moment, struct kiln_error *error)
 {
     struct kiln_moment_gl *gl = moment->gl;
     glGenTextures(1, &gl->look_table);
     glBindTexture(GL_TEXTURE_2D, gl->look_table);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES,
-                 KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES, 0, GL_RGBA, GL_FLOAT, NULL);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_LOOK_SAMPLES, count_rows(moment), 0, GL_RGBA,
+                 GL_FLOAT, NULL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     kiln_device_label(gl->device, GL_TEXTURE, gl->look_table, "look table");
@@ -75,8 +82,8 @@ static void bind_look_table(const struct kiln_moment *moment)
     glBindTexture(GL_TEXTURE_2D, gl->look_table);
     if (gl->uploaded_changes == moment->look_changes)
         return;
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES,
-                    GL_RGBA, GL_FLOAT, moment->look_table);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, count_rows(moment), GL_RGBA,
+                    GL_FLOAT, moment->look_table);
     gl->uploaded_changes = moment->look_changes;
 }
 

@@ -254,7 +254,8 @@ static void make_solids(void *context, size_t begin, size_t end, uint32_t worker
     (void)worker;
     const struct convert_job *m = context;
     for (size_t i = begin; i < end; i++) {
-        uint32_t number = m->entries[i] >> 24, slot = m->entries[i] & 0xffffffu;
+        uint32_t number = KILN_ENTRY_SYSTEM(m->entries[i]);
+        uint32_t slot = KILN_ENTRY_SLOT(m->entries[i]);
         const struct kiln_appearance_system *system = &m->systems[number];
         struct kiln_appearance particle;
         m->stage->ranges[i] = (struct kiln_row_range){0, 0};

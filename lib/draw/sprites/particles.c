@@ -64,7 +64,7 @@ bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 }
 
 bool kiln_particles_splits(const struct kiln_particles_stage *stage,
-                           const struct kiln_particles_draw *draw, uint32_t systems)
+                           const struct kiln_particles_draw *draw, uint64_t systems)
 {
     return stage->technique == KILN_RASTER_CPU && kiln_raster_cpu_splits(draw, systems);
 }

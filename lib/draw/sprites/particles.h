@@ -57,7 +57,7 @@ struct kiln_particles_draw {
 /* Returns whether the stage can draw the covering particles of the given systems, a bit each, into
  * an image of their own while it draws a pass. */
 bool kiln_particles_splits(const struct kiln_particles_stage *stage,
-                           const struct kiln_particles_draw *draw, uint32_t systems);
+                           const struct kiln_particles_draw *draw, uint64_t systems);
 
 /* Returns whether the stage can draw the additive particles into an image of their own while it
  * draws a pass. */

@@ -509,7 +509,7 @@ static enum kiln_tile_glow choose_glow(const struct kiln_particles_draw *draw, f
     return glow;
 }
 
-bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint32_t systems)
+bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint64_t systems)
 {
     const struct kiln_moment *moment = draw->moment;
     float weights[3];

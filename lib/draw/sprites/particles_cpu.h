@@ -16,7 +16,7 @@ void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles);
 
 /* Returns whether covering particles can be drawn apart, as kiln_particles_splits does: where tiles
  * keep the colour of what glows apart, and of all particles the additive ones glow. */
-bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint32_t systems);
+bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint64_t systems);
 
 /* Draws the particles of a pass, as kiln_particles_run does. */
 bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,

@@ -214,13 +214,14 @@ struct piece {
 
 /* Sorts a piece by system. Writes where each system's entries start in `order`, and the end, to
  * first. */
-static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1])
+static void order_piece(struct piece *piece, uint32_t system_count,
+                        uint32_t first[KILN_MAX_SYSTEMS + 1])
 {
-    memset(first, 0, (KILN_MAX_SYSTEMS + 1) * sizeof *first);
+    memset(first, 0, (system_count + 1) * sizeof *first);
     for (uint32_t i = 0; i < piece->count; i++)
         first[KILN_ENTRY_SYSTEM(piece->entries[i]) + 1]++;
     uint32_t next[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < KILN_MAX_SYSTEMS; i++) {
+    for (uint32_t i = 0; i < system_count; i++) {
         next[i] = first[i];
         first[i + 1] += first[i];
     }
@@ -276,13 +277,14 @@ static void make_vector(struct sprite_lanes *p, const struct piece *piece,
 
 static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
 {
+    const uint32_t system_count = pass->scene->system_count;
     uint32_t first[KILN_MAX_SYSTEMS + 1];
-    order_piece(piece, first);
+    order_piece(piece, system_count, first);
     fetch(pass, piece, 0, PREFETCH_DISTANCE, false);
     struct sprite_lanes p;
     p.pass = pass;
     p.has_extras = false;
-    for (uint32_t system = 0; system < KILN_MAX_SYSTEMS; system++) {
+    for (uint32_t system = 0; system < system_count; system++) {
         p.look = &pass->looks[system];
         p.rows = &pass->table[(size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES].x;
         const uint32_t end = first[system + 1];

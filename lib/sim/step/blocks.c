@@ -33,7 +33,8 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
             error, KILN_USAGE, "a work group has %u invocations; %s takes at most %d",
             blocks->group_size, device->info.name, device->info.max_work_group_invocations);
     kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
-    kiln_buffer_init(&blocks->steps, device, KILN_MAX_SYSTEMS * blocks->step_stride,
+    kiln_buffer_init(&blocks->steps, device,
+                     (scene->system_count ? scene->system_count : 1) * blocks->step_stride,
                      "step parameters");
     kiln_buffer_init(&blocks->surroundings, device, sizeof(struct kiln_surroundings),
                      "surroundings");

@@ -3,8 +3,8 @@
  * after shared/draw_layout.h. kiln_moment_bind (lib/draw/moment/moment_gl.c) binds the buffers, and
  * kiln_draw_blocks_bind binds view_block.
  *
- * The n-th particle that is drawn is entries[n]: the system's number in the upper 8 bits, and the
- * slot in records in the lower 24. shared/derived.h reads value_keys as a global, so that block
+ * The n-th particle that is drawn is entries[n], which names its system and its slot in
+ * records (KILN_ENTRY). shared/derived.h reads value_keys as a global, so that block
  * must stand before it. */
 layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
 #include "shared/derived.h"

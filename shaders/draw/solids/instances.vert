@@ -58,8 +58,8 @@ bool is_seen(vec3 p, vec3 q, vec3 r)
 void main()
 {
     uint entry = entries[gl_InstanceID];
-    uint system = entry >> 24;
-    kiln_particle record = records[entry & 0xffffffu];
+    uint system = KILN_ENTRY_SYSTEM(entry);
+    kiln_particle record = records[KILN_ENTRY_SLOT(entry)];
     uint stream = particle_stream(looks[system].derived, record);
     float age = particle_age_before(record, view.clock_step.x, view.within.x, view.clock.y);
     float life = particle_progress(age, particle_life_s(looks[system].derived, record));
@@ -76,7 +76,7 @@ void main()
     instance_axes axes = instance_axes_of(orient, particle_velocity(record), angle, stream);
 #ifdef SPINS
     if (looks[system].turn.w != 0u)
-        axes = instance_posed(pose_of_slot(system, entry & 0xffffffu));
+        axes = instance_posed(pose_of_slot(system, KILN_ENTRY_SLOT(entry)));
 #endif
     mat3 turn = mat3(world_to_view_vector(axes.x), world_to_view_vector(axes.y),
                      world_to_view_vector(axes.z));

@@ -21,8 +21,8 @@ layout(location = 5) out vec4 ball_pose;     /* turns vectors from the ball to t
 void main()
 {
     uint entry = entries[gl_VertexID];
-    uint system = entry >> 24;
-    kiln_particle record = records[entry & 0xffffffu];
+    uint system = KILN_ENTRY_SYSTEM(entry);
+    kiln_particle record = records[KILN_ENTRY_SLOT(entry)];
     uint stream = particle_stream(looks[system].derived, record);
     float age = particle_age_before(record, view.clock_step.x, view.within.x, view.clock.y);
     float life = particle_progress(age, particle_life_s(looks[system].derived, record));
@@ -49,7 +49,7 @@ void main()
     ball_pose = instance_pose(stream, angle);
 #ifdef SPINS
     if (turn.x != 0u)
-        ball_pose = pose_of_slot(system, entry & 0xffffffu);
+        ball_pose = pose_of_slot(system, KILN_ENTRY_SLOT(entry));
 #endif
 #endif
 }

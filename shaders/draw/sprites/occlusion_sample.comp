@@ -21,7 +21,7 @@ void main()
     uint i = gl_GlobalInvocationID.x * spacing;
     if (i >= count)
         return;
-    vec3 at = world_to_view_point(particle_position(records[entries[i] & 0xffffffu]));
+    vec3 at = world_to_view_point(particle_position(records[KILN_ENTRY_SLOT(entries[i])]));
     vec2 size = vec2(textureSize(scene_depth, 0));
     at.xy -= view.principal.zw * at.z;
     vec2 pixel = size * (0.5 + vec2(at.x, -at.y) / view.frustum.xy * (0.5 / max(-at.z, 1e-3)));

@@ -142,8 +142,8 @@ void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float st
  * the other 24. */
 void make_billboard(uint entry)
 {
-    uint system = entry >> 24;
-    kiln_particle record = records[entry & 0xffffffu];
+    uint system = KILN_ENTRY_SYSTEM(entry);
+    kiln_particle record = records[KILN_ENTRY_SLOT(entry)];
     uint stream = particle_stream(looks[system].derived, record);
     float age = particle_age_before(record, view.clock_step.x, view.within.x, view.clock.y);
     float life = particle_progress(age, particle_life_s(looks[system].derived, record));
@@ -202,7 +202,7 @@ void make_billboard(uint entry)
                                   stream, 2.0 * pixels_per_m * vec2(half_size, size.half_length));
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
-    light_particle(cover.w, cover.rgb, entry & 0xffffffu, position, plane);
+    light_particle(cover.w, cover.rgb, KILN_ENTRY_SLOT(entry), position, plane);
     particle.light_x.a = half_size * bloom.a; /* half the thickness, m */
     particle.light_0.a = particle.light_z.a = 0.0; /* outline.glsl finds the rim */
 #if SHAPES

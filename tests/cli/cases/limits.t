@@ -111,7 +111,7 @@ Every scene has limits, and far from the origin steps may be too small for posit
 $ kiln help limits | sed -n '20,$p'
 1|A scene has at most these, whatever the limits:
 1|
-1|systems       16          Particle systems.
+1|systems       64          Particle systems.
 1|particles     16777216    Particles that may live at once, of all systems.
 1|forces        16          Forces of a system.
 1|bursts        64          Bursts of a system.

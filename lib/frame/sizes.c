@@ -1,0 +1,44 @@
+/* This file refuses scenes that are too large for a technique. The techniques that kiln has for
+ * comparison with papers keep the limits that all scenes had in 0.2. */
+#include "frame/sizes.h"
+
+#include "base/error.h"
+
+/* Returns the technique for comparison with papers that a stage runs, as the user writes it; NULL:
+ * none does. */
+static const char *find_paper(const struct kiln_techniques *techniques, const char **instead)
+{
+    *instead = "simulate=inplace";
+    switch (techniques->simulate) {
+    case KILN_SIMULATE_PINGPONG:
+        return "simulate=pingpong";
+    case KILN_SIMULATE_FEEDBACK:
+        return "simulate=feedback";
+    case KILN_SIMULATE_TEXELS:
+        return "simulate=texels";
+    case KILN_SIMULATE_CPU:
+    case KILN_SIMULATE_INPLACE:
+        break;
+    }
+    *instead = "sort=radix";
+    return techniques->sort == KILN_SORT_ODDEVEN ? "sort=oddeven" : NULL;
+}
+
+bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                      struct kiln_error *error)
+{
+    const char *instead, *paper = find_paper(techniques, &instead);
+    const struct {
+        const char *path, *noun;
+        uint32_t found, most;
+    } rows[] = {
+        {"systems", "systems", scene->system_count, 16},
+    };
+    for (size_t i = 0; paper && i < sizeof rows / sizeof *rows; i++) {
+        if (rows[i].found > rows[i].most)
+            return kiln_error_set(
+                error, KILN_USAGE, "%s: found %u %s; the technique %s takes at most %u: use %s",
+                rows[i].path, rows[i].found, rows[i].noun, paper, rows[i].most, instead);
+    }
+    return true;
+}
