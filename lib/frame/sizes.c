@@ -24,6 +24,16 @@ static const char *find_paper(const struct kiln_techniques *techniques, const ch
     return techniques->sort == KILN_SORT_ODDEVEN ? "sort=oddeven" : NULL;
 }
 
+static uint32_t most_forces(const struct kiln_scene *scene)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const uint32_t count = scene->systems[i].force_count;
+        most = count > most ? count : most;
+    }
+    return most;
+}
+
 bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                       struct kiln_error *error)
 {
@@ -33,6 +43,7 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
         uint32_t found, most;
     } rows[] = {
         {"systems", "systems", scene->system_count, 16},
+        {"forces", "forces of a system", most_forces(scene), 16},
     };
     for (size_t i = 0; paper && i < sizeof rows / sizeof *rows; i++) {
         if (rows[i].found > rows[i].most)

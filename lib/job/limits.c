@@ -162,7 +162,7 @@ static const struct size {
     {"demitters", KILN_MAX_DEMITTERS, "Boxes of a system in which particles die."},
     {"generations", KILN_MAX_GENERATIONS, "Generations of systems, parents to last descendants."},
     {"textures", KILN_MAX_TEXTURES, "Textures of a system."},
-    {"cells", KILN_MAX_CELLS, "Cells of all textures."},
+    {"cells", KILN_MAX_CELLS, "Cells of a texture; in OpenGL, of all textures together."},
     {"keys", KILN_MAX_VALUE_KEYS, "Keys of all values that vary."},
     {"objects", KILN_MAX_OBJECTS, "Objects of the backdrop, meshes and terrain included."},
     {"meshes", KILN_MAX_MESHES, "Meshes and terrains of the backdrop."},

@@ -6,7 +6,7 @@
 /* The largest key table of a scene: 16 KiB, the size of a uniform block that every GL allows. */
 #define KILN_MAX_VALUE_KEYS 1024
 
-#define KILN_MAX_FORCES           16 /* a system */
+#define KILN_MAX_FORCES           32 /* a system */
 #define KILN_MAX_DEMITTERS        8  /* a system */
 #define KILN_MAX_BURSTS           64 /* a system */
 #define KILN_MAX_OBJECTS          32 /* a scene */

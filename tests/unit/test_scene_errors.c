@@ -517,7 +517,7 @@ static void bad_forces(void **state)
     static const struct {
         const char *forces, *where, *found;
     } cases[] = {
-        {"{drag: 1}", ":2:23: systems.a.forces: expected a list of up to 16: ", "a mapping"},
+        {"{drag: 1}", ":2:23: systems.a.forces: expected a list of up to 32: ", "a mapping"},
         {"[gravity]", ":2:24: systems.a.forces.0: expected ", "'gravity'"},
         {"[{}]", ":2:24: systems.a.forces.0: expected ", "a mapping"},
     };

@@ -428,24 +428,34 @@ static bool fill_layers(struct kiln_atlas *atlas, struct flipbooks *all, const c
     return ok;
 }
 
+/* Gives all textures their layers and makes the flipbooks. */
+static bool make_flipbooks(struct kiln_atlas *atlas, struct flipbooks *all,
+                           const struct kiln_atlas_request *requests, uint32_t count,
+                           const char *cache, struct kiln_threads *threads,
+                           struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        atlas->systems[i].count = requests[i].count;
+        for (uint32_t k = 0; k < requests[i].count; k++)
+            add_texture(all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
+    }
+    const bool ok = fill_layers(atlas, all, cache, threads, error);
+    for (uint32_t i = 0; i < all->copy_count; i++)
+        *all->copies[i] = *all->books[all->originals[i]].range;
+    for (uint32_t i = 0; i < all->count; i++)
+        kiln_builtin_close(&all->books[i].builtin);
+    return ok;
+}
+
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
                      const struct kiln_atlas_request *requests, uint32_t count, const char *cache,
                      struct kiln_threads *threads, struct kiln_error *error)
 {
     *atlas = (struct kiln_atlas){.device = device};
-    struct flipbooks all = {0};
-    if (!kiln_simd_choose(&all.simd, error))
-        return false;
-    for (uint32_t i = 0; i < count; i++) {
-        atlas->systems[i].count = requests[i].count;
-        for (uint32_t k = 0; k < requests[i].count; k++)
-            add_texture(&all, atlas, &requests[i], k, &atlas->systems[i].textures[k]);
-    }
-    bool ok = fill_layers(atlas, &all, cache, threads, error);
-    for (uint32_t i = 0; i < all.copy_count; i++)
-        *all.copies[i] = *all.books[all.originals[i]].range;
-    for (uint32_t i = 0; i < all.count; i++)
-        kiln_builtin_close(&all.books[i].builtin);
+    struct flipbooks *all = calloc(1, sizeof *all);
+    bool ok = all ? kiln_simd_choose(&all->simd, error) : out_of_memory(error, "all systems");
+    ok = ok && make_flipbooks(atlas, all, requests, count, cache, threads, error);
+    free(all);
     if (!ok)
         kiln_atlas_finish(atlas);
     return ok;

@@ -113,12 +113,12 @@ $ kiln help limits | sed -n '20,$p'
 1|
 1|systems       64          Particle systems.
 1|particles     16777216    Particles that may live at once, of all systems.
-1|forces        16          Forces of a system.
+1|forces        32          Forces of a system.
 1|bursts        64          Bursts of a system.
 1|demitters     8           Boxes of a system in which particles die.
 1|generations   4           Generations of systems, parents to last descendants.
 1|textures      8           Textures of a system.
-1|cells         2048        Cells of all textures.
+1|cells         2048        Cells of a texture; in OpenGL, of all textures together.
 1|keys          1024        Keys of all values that vary.
 1|objects       32          Objects of the backdrop, meshes and terrain included.
 1|meshes        8           Meshes and terrains of the backdrop.

@@ -1,4 +1,5 @@
-The largest scenes. At each limit the state is the same with OpenGL and without; one more is an error.
+The largest scenes. At each limit the states are the same with OpenGL and without, and the pictures look
+the same; one more is an error.
 
 $ mkdir bin; cat >bin/series <<'END'
 > #!/bin/sh
@@ -6,10 +7,11 @@ $ mkdir bin; cat >bin/series <<'END'
 > END
 $ cat >bin/states <<'END'
 > #!/bin/sh
-> kiln render "$@" -q -o none --frames 1 --stats --device cpu | grep state >cpu
-> kiln render "$@" -q -o none --frames 1 --stats --device software --technique simulate=inplace --technique sort=radix \
->     --technique backdrop=gl --technique raster=geometry --technique bloom=gl --technique composite=gl | grep state | diff cpu - &&
->     cat cpu
+> kiln render "$@" -q -o cpu.png --force --frames 1 --stats --device cpu | grep state >cpu
+> kiln render "$@" -q -o gl.png --force --frames 1 --stats --device software --technique simulate=inplace \
+>     --technique sort=radix --technique backdrop=gl --technique raster=geometry --technique bloom=gl \
+>     --technique composite=gl | grep state | diff cpu - && cat cpu
+> kiln compare -q cpu.png gl.png || echo the pictures differ
 > END
 $ chmod +x bin/*
 
@@ -28,3 +30,27 @@ $ kiln render 64.yaml -q -o none --frames 0 --device software --technique simula
 $ kiln render 64.yaml -q -o none --frames 0 --device software --technique sort=oddeven:4
 2|kiln: systems: found 64 systems; the technique sort=oddeven takes at most 16: use sort=radix
 = 2
+
+Forces of a system:
+
+$ fire() { printf 'kiln: 1\noutput: {size: [32, 18], frames: 9}\nsystems:\n  fire: {emit: {rate: 600}, forces: ['; bin/series "$1" 'wind: [0.%d, 0, 0], '; echo ']}'; }
+> fire 32 >32.yaml; fire 33 >33.yaml; bin/states 32.yaml; kiln check 33.yaml
+1|  state        3a5d3548cee090fb
+2|33.yaml:4:37: systems.fire.forces: found 33 entries; at most 32 are allowed
+= 3
+$ kiln render 32.yaml -q -o none --frames 0 --device software --technique simulate=texels
+2|kiln: forces: found 32 forces of a system; the technique simulate=texels takes at most 16: use simulate=inplace
+= 2
+
+Textures, eight a system, of 32 cells each:
+
+$ for i in $(seq 64); do cp scenes/puff.png $i.png; done
+> printf 'kiln: 1\noutput: {size: [32, 18], frames: 2}\nsystems:\n' >textures.yaml
+> for s in $(seq 0 8 56); do printf '  s%d: {emit: {rate: 60}, look: {cells: [8, 4], atlas: [' $s; for i in $(seq 8); do printf "$((s + i)).png, "; done; echo ']}}'; done >>textures.yaml
+> bin/states textures.yaml
+1|  state        c9b4ea0dbd18219e
+$ sed -i 's/.8, 4./[8, 8]/' textures.yaml; kiln render textures.yaml -q -o none --frames 0 --device software --technique raster=geometry 2>&1 | sed 's/; .* takes/; <device> takes/'
+1|kiln: the atlases have 4096 cells together; <device> takes at most 2048
+$ sed -i 's/1.png,/1.png, 2.png,/' textures.yaml; kiln check textures.yaml
+2|textures.yaml:4:55: systems.s0.look.atlas: expected "builtin:fire", "builtin:flame", "builtin:tongue", "builtin:smoke", "builtin:puff", "builtin:spark", "builtin:star", "builtin:drop", "builtin:splash", "builtin:debris", or the path of an image or video file, from the scene's folder and inside it; or a list of 1 to 8 of these, found a list
+= 3
