@@ -34,6 +34,33 @@ static uint32_t most_forces(const struct kiln_scene *scene)
     return most;
 }
 
+/* Counts the keys that shaders of drawing evaluate, in a scene of more keys than a uniform block
+ * holds (draw/moment/moment_gl.c). */
+static uint32_t count_life_keys(const struct kiln_scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
+        const struct kiln_range *life = &scene->systems[i].emit.life;
+        count += life->min.count;
+        count += life->max.first == life->min.first ? 0 : life->max.count;
+    }
+    return count;
+}
+
+static bool check_drawing(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                          struct kiln_error *error)
+{
+    const bool on_host = techniques->simulate == KILN_SIMULATE_CPU &&
+                         techniques->backdrop == KILN_BACKDROP_CPU &&
+                         techniques->raster == KILN_RASTER_CPU;
+    const uint32_t found = count_life_keys(scene);
+    return on_host || found <= KILN_BLOCK_KEYS ||
+           kiln_error_set(error, KILN_USAGE,
+                          "systems: found %u keys of lives; OpenGL takes at most %d of them: use "
+                          "the device %s",
+                          found, KILN_BLOCK_KEYS, KILN_DEVICE_CPU);
+}
+
 bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                       struct kiln_error *error)
 {
@@ -44,6 +71,7 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
     } rows[] = {
         {"systems", "systems", scene->system_count, 16},
         {"forces", "forces of a system", most_forces(scene), 16},
+        {"scene", "keys", scene->key_count, KILN_BLOCK_KEYS},
     };
     for (size_t i = 0; paper && i < sizeof rows / sizeof *rows; i++) {
         if (rows[i].found > rows[i].most)
@@ -51,5 +79,5 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
                 error, KILN_USAGE, "%s: found %u %s; the technique %s takes at most %u: use %s",
                 rows[i].path, rows[i].found, rows[i].noun, paper, rows[i].most, instead);
     }
-    return true;
+    return check_drawing(scene, techniques, error);
 }

@@ -163,7 +163,7 @@ static const struct size {
     {"generations", KILN_MAX_GENERATIONS, "Generations of systems, parents to last descendants."},
     {"textures", KILN_MAX_TEXTURES, "Textures of a system."},
     {"cells", KILN_MAX_CELLS, "Cells of a texture; in OpenGL, of all textures together."},
-    {"keys", KILN_MAX_VALUE_KEYS, "Keys of all values that vary."},
+    {"keys", KILN_MAX_VALUE_KEYS, "Keys of all values; in OpenGL, 1024 of them of lives."},
     {"objects", KILN_MAX_OBJECTS, "Objects of the backdrop, meshes and terrain included."},
     {"meshes", KILN_MAX_MESHES, "Meshes and terrains of the backdrop."},
     {"lights", KILN_MAX_LIGHTS, "Lights of the backdrop."},

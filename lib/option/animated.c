@@ -53,21 +53,37 @@ struct curve {
     uint32_t points;
 };
 
+/* Makes room for a number of keys. */
+static bool reserve_keys(struct kiln_reader *reader, uint32_t count)
+{
+    if (count <= reader->key_room)
+        return true;
+    uint32_t room = reader->key_room ? reader->key_room : KILN_BLOCK_KEYS;
+    while (room < count)
+        room *= 2;
+    float4 *keys = kiln_arena_alloc(reader->scratch, room, sizeof *keys);
+    if (!keys)
+        return false;
+    if (reader->keys)
+        memcpy(keys, reader->keys, reader->key_count * sizeof *keys);
+    reader->keys = keys;
+    reader->key_room = room;
+    return true;
+}
+
 static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node,
                         struct curve *curve, uint32_t clock)
 {
     if (node->count == 0)
         return kiln_reader_error(reader, node, "found no keys; at least one is needed");
-    if (!reader->keys)
-        reader->keys = kiln_arena_alloc(reader->scratch, KILN_MAX_VALUE_KEYS, sizeof *reader->keys);
-    if (!reader->keys)
-        return kiln_reader_out_of_memory(reader);
     uint32_t needed = curve->count * node->count; /* node->count <= KILN_NODE_MAX_ENTRIES */
     if (needed > KILN_MAX_VALUE_KEYS - reader->key_count)
         return kiln_reader_error(
             reader, node,
             "%u keys are too many; %s has at most %d, and %u of them are used already", needed,
             reader->origin->kind, KILN_MAX_VALUE_KEYS, reader->key_count);
+    if (!reserve_keys(reader, reader->key_count + needed))
+        return kiln_reader_out_of_memory(reader);
     for (unsigned i = 0; i < curve->count; i++) {
         uint32_t first = reader->key_count + i * node->count;
         curve->values[i] =

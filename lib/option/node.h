@@ -12,7 +12,7 @@
 enum {
     KILN_NODE_MAX_DEPTH = 64,
     KILN_NODE_MAX_ENTRIES = 1024,  /* entries of one list or mapping */
-    KILN_NODE_MAX_TOTAL = 1 << 17, /* nodes of one text */
+    KILN_NODE_MAX_TOTAL = 1 << 18, /* nodes of one text; a key takes two */
 };
 
 /* Describes where a text comes from: a file, or "--set key". */

@@ -18,7 +18,7 @@ struct kiln_reader {
     char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */
     size_t path_length;
     float4 *keys; /* keys of all animated values read so far; NULL before the first */
-    uint32_t key_count;
+    uint32_t key_count, key_room;
     struct kiln_default *defaults;
 };
 

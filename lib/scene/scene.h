@@ -503,6 +503,12 @@ bool kiln_object_is_oriented_box(const struct kiln_object *object);
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
+/* Returns whether the scene has more keys than a uniform block holds. */
+static inline bool kiln_scene_stores_keys(const struct kiln_scene *scene)
+{
+    return scene->key_count > KILN_BLOCK_KEYS;
+}
+
 /* Returns whether all pictures have the same view: nothing of the camera changes with time, and the
  * eye and the pixels' samples have one place. */
 bool kiln_scene_view_stands(const struct kiln_scene *scene);

@@ -3,8 +3,10 @@
 #ifndef KILN_SHARED_LIMITS_H
 #define KILN_SHARED_LIMITS_H
 
-/* The largest key table of a scene: 16 KiB, the size of a uniform block that every GL allows. */
-#define KILN_MAX_VALUE_KEYS 1024
+/* The largest key table of a scene, and of a uniform block of 16 KiB, which every GL allows. With
+ * more keys, a scene's table lies in a storage block (KEYS_STORED). */
+#define KILN_MAX_VALUE_KEYS 65536
+#define KILN_BLOCK_KEYS     1024
 
 #define KILN_MAX_FORCES           32 /* a system */
 #define KILN_MAX_DEMITTERS        8  /* a system */
@@ -63,6 +65,7 @@
 #define INTERACT_BIND_ENTRIES  6 /* entries of the two grids, which are sorted */
 #define INTERACT_BIND_ORDER    7 /* order of the second grid */
 #define INTERACT_BIND_SPINS    8 /* spins of bodies; every device in use has this binding point */
+#define INTERACT_BIND_KEYS     9 /* keys, with KEYS_STORED */
 
 /* Locations of uniforms of these kernels. */
 #define INTERACT_AT_CELL_COUNT     0

@@ -3,8 +3,8 @@
  * so a value is 16 bytes.
  *
  * In GLSL the including shader declares the table `float4 value_keys[]` in a uniform block, since
- * many reads of one address of a storage buffer are slow on llvmpipe. In C it is passed as a
- * parameter. */
+ * many reads of one address of a storage buffer are slow on llvmpipe. A table that is too large for
+ * that lies in a storage block. In C it is passed as a parameter. */
 #ifndef KILN_SHARED_VALUE_H
 #define KILN_SHARED_VALUE_H
 
@@ -67,7 +67,7 @@ uint value_try(uint k, uint distance, uint last, float x)
 uint value_find(kiln_value v, float x)
 {
     uint last = v.first + v.count - 1u;
-    uint k = value_try(v.first, 512u, last, x); /* the distances reach KILN_MAX_VALUE_KEYS - 1 */
+    uint k = value_try(v.first, 512u, last, x); /* the distances reach KILN_BLOCK_KEYS - 1 */
     k = value_try(k, 256u, last, x);
     k = value_try(k, 128u, last, x);
     k = value_try(k, 64u, last, x);

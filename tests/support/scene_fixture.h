@@ -7,7 +7,7 @@
 
 struct scene_fixture {
     struct kiln_scene scene;
-    float4 keys[KILN_MAX_VALUE_KEYS]; /* scene.keys */
+    float4 keys[KILN_BLOCK_KEYS]; /* scene.keys */
 };
 
 /* Makes an empty scene of 300 frames, 60 a second, with one simulation step a frame. Frees the

@@ -1,4 +1,5 @@
 /* lib/scene: bad scenes, and the exact words that say where, what was found and what is allowed. */
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -491,8 +492,8 @@ static void bad_growth(void **state)
                      ":1:7: anchors and aliases are not allowed");
     /* Wide within each limit, but not in all. */
     char *row = repeat("  - [", "1,", 999, "1]\n");
-    expect_generated(repeat("kiln:\n", row, 200, ""),
-                     ":132:1882: more than 131072 entries in all; no more are allowed");
+    expect_generated(repeat("kiln:\n", row, 300, ""),
+                     ":263:1764: more than 262144 entries in all; no more are allowed");
     free(row);
 }
 
@@ -533,23 +534,35 @@ static void bad_forces(void **state)
     kiln_text_free(&names);
 }
 
-/* Every key of all scenes lies in one table. */
+/* Every key of all scenes lies in one table. A curve has up to 1024 of them. */
 static void bad_key_count(void **state)
 {
     (void)state;
-    char text[32768];
-    int length = snprintf(text, sizeof text, "kiln: 1\ncamera: {fov: {keys: {");
-    for (int i = 0; i < KILN_MAX_VALUE_KEYS; i++)
+    enum { CURVES = 64, KEYS = KILN_MAX_VALUE_KEYS / CURVES, ROOM = 2 << 20 };
+    char *text = malloc(ROOM);
+    assert_non_null(text);
+    size_t length = (size_t)snprintf(text, ROOM, "kiln: 1\nsystems:\n");
+    for (int curve = 0; curve < CURVES; curve++) {
         length +=
-            snprintf(text + length, sizeof text - (size_t)length, "%s%d: 45 deg", i ? ", " : "", i);
-    snprintf(text + length, sizeof text - (size_t)length, "}}}\n");
+            (size_t)snprintf(text + length, ROOM - length, "  s%d: {look: {size: {keys: {", curve);
+        for (int i = 0; i < KEYS; i++)
+            length += (size_t)snprintf(text + length, ROOM - length, "%s%d: %d cm", i ? ", " : "",
+                                       i, 1 + (i + curve) % 9);
+        length += (size_t)snprintf(text + length, ROOM - length, "}}}}\n");
+    }
     struct kiln_scene *scene = load_scene(text, NULL);
     assert_int_equal(scene->key_count, KILN_MAX_VALUE_KEYS);
+    const struct kiln_value *size = &scene->systems[63].look.size;
+    for (uint32_t i = 0; i < KEYS; i++) {
+        assert_true(scene->keys[size->first + i].x == (float)i);
+        assert_true(fabsf(scene->keys[size->first + i].y - 0.01f * (float)(1 + (i + 63) % 9)) <
+                    1e-7f);
+    }
     kiln_scene_destroy(&scene);
 
-    snprintf(text + length, sizeof text - (size_t)length, "}}, roll: {keys: {0: 0}}}\n");
-    expect_generated(strdup(text), ":2:13264: camera.roll.keys: 1 keys are too many; a scene has "
-                                   "at most 1024, and 1024 of them are used already");
+    snprintf(text + length, ROOM - length, "camera: {roll: {keys: {0: 0}}}\n");
+    expect_generated(text, ":66:29: systems.s63.look.size.keys: 1024 keys are too many; a scene "
+                           "has at most 65536, and 64513 of them are used already");
 }
 
 int main(void)

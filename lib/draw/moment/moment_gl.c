@@ -1,5 +1,5 @@
-/* This file uploads the looks of a scene to GL once, and the look table whenever it has changed. It
- * binds both, together with the particles' records. */
+/* This file uploads the looks of a scene to GL once, with the keys of lives, and the look table
+ * whenever it has changed. It binds both, together with the particles' records. */
 #include "draw/moment/moment_gl.h"
 
 #include <assert.h>
@@ -42,16 +42,45 @@ void kiln_moment_gl_destroy(struct kiln_moment_gl **gl)
     *gl = NULL;
 }
 
+/* Appends the keys of a value to a table of `count` keys, and points the value at them. */
+static void pack_value(const struct kiln_scene *scene, struct kiln_value *value, float4 *keys,
+                       uint32_t *count)
+{
+    assert(*count + value->count <= KILN_BLOCK_KEYS); /* by kiln_sizes_check */
+    if (value->count > 0)
+        memcpy(keys + *count, scene->keys + value->first, value->count * sizeof *keys);
+    value->first = *count;
+    *count += value->count;
+}
+
+/* Fills the table of keys for drawing. Where the scene's keys do not fit into a uniform block, the
+ * table has only those that shaders of drawing evaluate: the keys of the lives. */
+static void fill_keys(const struct kiln_scene *scene, struct kiln_draw_look *looks, float4 *keys)
+{
+    uint32_t count = 0;
+    if (scene->key_count > 0 && !kiln_scene_stores_keys(scene))
+        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
+    for (uint32_t i = 0; i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
+        struct kiln_range *life = &looks[i].derived.life;
+        const bool same = life->max.first == life->min.first;
+        pack_value(scene, &life->min, keys, &count);
+        if (same)
+            life->max = life->min;
+        else
+            pack_value(scene, &life->max, keys, &count);
+    }
+}
+
 static bool make_buffers(const struct kiln_moment *moment, struct kiln_error *error)
 {
     struct kiln_moment_gl *gl = moment->gl;
-    const struct kiln_scene *scene = moment->scene;
-    float4 keys[KILN_MAX_VALUE_KEYS] = {{0}};
-    if (scene->key_count)
-        memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
-    kiln_buffer_init(&gl->looks, gl->device, sizeof moment->looks, "looks");
+    struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
+    float4 keys[KILN_BLOCK_KEYS] = {{0}};
+    memcpy(looks, moment->looks, sizeof looks);
+    fill_keys(moment->scene, looks, keys);
+    kiln_buffer_init(&gl->looks, gl->device, sizeof looks, "looks");
     kiln_buffer_init(&gl->keys, gl->device, sizeof keys, "value keys");
-    return kiln_buffer_upload(&gl->looks, moment->looks, error) &&
+    return kiln_buffer_upload(&gl->looks, looks, error) &&
            kiln_buffer_upload(&gl->keys, keys, error);
 }
 

@@ -71,15 +71,22 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
                               "%s: there are %d places for storage blocks, and balls that spin "
                               "need %d; use simulate=cpu",
                               device->info.name, bindings, INTERACT_BIND_SPINS + 1);
+    if (kiln_scene_stores_keys(interact->scene) && bindings <= INTERACT_BIND_KEYS)
+        return kiln_error_set(error, KILN_NO_DEVICE,
+                              "%s: there are %d places for storage blocks, and interactions in a "
+                              "scene of more than %d keys need %d; use simulate=cpu",
+                              device->info.name, bindings, KILN_BLOCK_KEYS, INTERACT_BIND_KEYS + 1);
     interact->group_size = device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
     for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
         if ((used & KERNELS[i].used_for) == 0)
             continue;
-        char defines[128], counted[48] = "";
+        char defines[160], counted[48] = "";
         if (i == KILN_INTERACT_FIND && device->info.software)
             snprintf(counted, sizeof counted, "#define MOST_AROUND %uu\n", (unsigned)MOST_AROUND);
-        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s", interact->group_size,
-                 KERNELS[i].defines, counted, interact->spins ? "#define SPINS 1\n" : "");
+        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s%s",
+                 interact->group_size, KERNELS[i].defines, counted,
+                 interact->spins ? "#define SPINS 1\n" : "",
+                 kiln_scene_stores_keys(interact->scene) ? "#define KEYS_STORED 1\n" : "");
         interact->programs[i] = kiln_program_create(
             device, &(struct kiln_program_params){.compute = KERNELS[i].file, .defines = defines},
             error);
@@ -122,7 +129,10 @@ static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_
     const GLuint values = kiln_buffer_gl(keys, KILN_READ, error);
     if (!values || !set_params(interact, &work->params, error))
         return false;
-    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
+    if (kiln_scene_stores_keys(interact->scene))
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_KEYS, values);
+    else
+        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
     const enum kiln_access change = KILN_READ_WRITE;
     const bool sorts = work->collides || work->flocks;
     if (interact->spins && !bind(INTERACT_BIND_SPINS, &pool->spins, change, error))

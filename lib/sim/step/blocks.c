@@ -32,7 +32,9 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
         return kiln_error_set(
             error, KILN_USAGE, "a work group has %u invocations; %s takes at most %d",
             blocks->group_size, device->info.name, device->info.max_work_group_invocations);
-    kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
+    const bool stored = kiln_scene_stores_keys(scene);
+    kiln_buffer_init(&blocks->keys, device,
+                     (stored ? scene->key_count : KILN_BLOCK_KEYS) * sizeof(float4), "value keys");
     kiln_buffer_init(&blocks->steps, device,
                      (scene->system_count ? scene->system_count : 1) * blocks->step_stride,
                      "step parameters");
@@ -67,9 +69,10 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
     GLuint surroundings = kiln_buffer_upload(&blocks->surroundings, &params->surroundings, error);
     if (!key_buffer || !surroundings || !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
         return false;
-    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
+    if (params->grids->key_words == 0)
+        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
     glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, surroundings);
-    if (params->grids->count > 0) {
+    if (params->grids->words.size > 0) {
         GLuint words = kiln_buffer_gl(&params->grids->words, KILN_READ, error);
         if (!words)
             return false;
@@ -239,6 +242,7 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
     add_define(&defines, "COLLIDE_ORIENTED", oriented);
     add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(&defines, "GRIDS", grids);
+    add_define(&defines, "KEYS_STORED", params->grids->key_words > 0);
     add_define(&defines, "COLLIDE_FIELD", fields);
     add_define(&defines, "COLLIDE_VOLUME", volumes);
     add_define(&defines, "COLLIDE_DEPTH", has_depth_maps(scene));

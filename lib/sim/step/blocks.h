@@ -11,7 +11,7 @@ struct kiln_sim_blocks {
     struct kiln_device *device;
     uint32_t group_size;             /* invocations of a work group that steps slots */
     size_t step_stride;              /* bytes from one system's parameters to the next's */
-    struct kiln_buffer keys;         /* float4 [KILN_MAX_VALUE_KEYS] */
+    struct kiln_buffer keys;         /* float4: the scene's keys, room for KILN_BLOCK_KEYS */
     struct kiln_buffer steps;        /* struct kiln_step_params, step_stride apart */
     struct kiln_buffer surroundings; /* struct kiln_surroundings */
 };
@@ -53,9 +53,10 @@ struct kiln_sim_programs {
 };
 
 /* Creates the programs of a kernel. `files` name a kernel that knows the variants COLLIDE_ROUND,
- * COLLIDE_ORIENTED, GRIDS, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL, SWEEP_ALL (with
- * FORCES_ALL), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY; defines in
- * `files` are ignored. kiln_sim_programs_finish frees everything, also after a failure. */
+ * COLLIDE_ORIENTED, GRIDS, KEYS_STORED, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL,
+ * SWEEP_ALL (with FORCES_ALL), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY;
+ * defines in `files` are ignored. kiln_sim_programs_finish frees everything, also after a failure.
+ */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);

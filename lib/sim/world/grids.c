@@ -185,7 +185,7 @@ static float find_steepest(const struct kiln_terrain *terrain)
 /* Places the grids in the buffer, one after another. Returns the number of words of all. */
 static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
 {
-    size_t total = 0;
+    size_t total = grids->key_words;
     for (uint32_t i = 0; i < grids->count; i++) {
         const uint32_t k = i - grids->wind_count;
         if (i < grids->wind_count) {
@@ -236,13 +236,16 @@ static void copy_words(float4 *words, const struct sources *sources, uint32_t wi
 }
 
 static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
-                 const struct sources *sources, struct kiln_error *error)
+                 const struct kiln_scene *scene, const struct sources *sources,
+                 struct kiln_error *error)
 {
     const size_t total = place(grids, sources);
     kiln_buffer_init(&grids->words, device, total * sizeof(float4), "grids");
     float4 *words = kiln_buffer_host(&grids->words, KILN_OVERWRITE, error);
     if (!words)
         return false;
+    memcpy(words, scene->keys, grids->key_words * sizeof *words);
+    words += grids->key_words;
     for (uint32_t i = 0; i < grids->count; i++) {
         const size_t count =
             count_words(&grids->table[i], depths_of(sources, grids->wind_count, i));
@@ -256,13 +259,15 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
                          const struct kiln_scene *scene, struct kiln_threads *threads,
                          struct kiln_error *error)
 {
-    *grids = (struct kiln_sim_grids){.count = 0};
+    *grids = (struct kiln_sim_grids){
+        .key_words = device && kiln_scene_stores_keys(scene) ? scene->key_count : 0};
     kiln_buffer_init(&grids->words, device, 0, "grids");
     list_files(grids, scene);
     struct sources sources = {.winds = {NULL}};
-    const bool ok = load(grids, scene, &sources, threads, error) &&
-                    (grids->count == 0 || fill(grids, device, &sources, error)) &&
-                    kiln_volumes_init(&grids->volumes, device, scene, error);
+    const bool ok =
+        load(grids, scene, &sources, threads, error) &&
+        (grids->count + grids->key_words == 0 || fill(grids, device, scene, &sources, error)) &&
+        kiln_volumes_init(&grids->volumes, device, scene, error);
     free_sources(&sources);
     return ok;
 }

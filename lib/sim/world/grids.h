@@ -1,5 +1,6 @@
 /* Loads the grids that a scene's forces and colliders look up. All grids lie in one buffer; a table
- * says where each begins. */
+ * says where each begins. In GL the buffer also has the keys of a scene that has too many for a
+ * uniform block, since few storage blocks are guaranteed. */
 #ifndef KILN_SIM_WORLD_GRIDS_H
 #define KILN_SIM_WORLD_GRIDS_H
 
@@ -17,7 +18,9 @@ struct kiln_sim_grids {
     float top[KILN_MAX_GRIDS];            /* m: highest point of a terrain */
     float steepest[KILN_MAX_GRIDS];       /* of a terrain: the value for struct kiln_collider */
     struct kiln_grid table[KILN_MAX_GRIDS];
-    struct kiln_buffer words; /* words of all grids, as float4 */
+    /* words of all grids, as float4; in GL, the scene's keys lie before them if they are stored */
+    struct kiln_buffer words;
+    size_t key_words;
     struct kiln_volumes volumes;
 };
 

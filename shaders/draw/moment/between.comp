@@ -4,7 +4,7 @@
 // variant: SPINS=1
 #include "shared/draw_layout.h"
 
-layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
+layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_BLOCK_KEYS]; };
 #include "shared/between.h"
 #include "shared/look_layout.h"
 

@@ -6,7 +6,7 @@
  * The n-th particle that is drawn is entries[n], which names its system and its slot in
  * records (KILN_ENTRY). shared/derived.h reads value_keys as a global, so that block
  * must stand before it. */
-layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
+layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_BLOCK_KEYS]; };
 #include "shared/derived.h"
 #include "shared/look_layout.h"
 

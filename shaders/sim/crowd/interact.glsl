@@ -12,10 +12,17 @@
 #include "shared/limits.h"
 #include "shared/platform.h"
 
+#ifdef KEYS_STORED
+layout(std430, binding = INTERACT_BIND_KEYS) readonly buffer key_block
+{
+    float4 value_keys[];
+};
+#else
 layout(std140, binding = SIM_BIND_KEYS) uniform key_block
 {
-    float4 value_keys[KILN_MAX_VALUE_KEYS];
+    float4 value_keys[KILN_BLOCK_KEYS];
 };
+#endif
 
 #include "shared/interact_layout.h"
 

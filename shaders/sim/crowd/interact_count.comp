@@ -4,6 +4,7 @@
  * A sum of integers is the same in any order. */
 // variant:
 // variant: STAGGERED=1
+// variant: KEYS_STORED=1
 // variant: FLOCK=1
 #include "sim/crowd/interact.glsl"
 

@@ -4,6 +4,7 @@
  * the number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
 // variant:
 // variant: STAGGERED=1
+// variant: KEYS_STORED=1
 // variant: MOST_AROUND=65000u
 #include "sim/crowd/interact.glsl"
 

@@ -6,10 +6,21 @@
 #include "shared/limits.h"
 #include "shared/platform.h"
 
+#if defined(GRIDS) || defined(KEYS_STORED)
+layout(std430, binding = SIM_BIND_GRIDS) readonly buffer grid_block
+{
+    float4 grid_words[];
+};
+#endif
+
+#ifdef KEYS_STORED /* the keys are the first words, before those of the grids */
+#define value_keys grid_words
+#else
 layout(std140, binding = SIM_BIND_KEYS) uniform key_block
 {
-    float4 value_keys[KILN_MAX_VALUE_KEYS];
+    float4 value_keys[KILN_BLOCK_KEYS];
 };
+#endif
 
 #include "shared/layout.h"
 
@@ -22,13 +33,6 @@ layout(std140, binding = SIM_BIND_SURROUNDINGS) uniform surroundings_block
 {
     kiln_surroundings surroundings;
 };
-
-#ifdef GRIDS
-layout(std430, binding = SIM_BIND_GRIDS) readonly buffer grid_block
-{
-    float4 grid_words[];
-};
-#endif
 
 #ifdef COLLIDE_VOLUME
 layout(std430, binding = SIM_BIND_VOLUMES) readonly buffer volume_block

@@ -54,3 +54,31 @@ $ sed -i 's/.8, 4./[8, 8]/' textures.yaml; kiln render textures.yaml -q -o none 
 $ sed -i 's/1.png,/1.png, 2.png,/' textures.yaml; kiln check textures.yaml
 2|textures.yaml:4:55: systems.s0.look.atlas: expected "builtin:fire", "builtin:flame", "builtin:tongue", "builtin:smoke", "builtin:puff", "builtin:spark", "builtin:star", "builtin:drop", "builtin:splash", "builtin:debris", or the path of an image or video file, from the scene's folder and inside it; or a list of 1 to 8 of these, found a list
 = 3
+
+Keys, 1024 a curve. Speeds and pulls are evaluated on the device, lives in drawing, too. Balls that collide have kernels
+of their own:
+
+$ cat >bin/keys <<'END'
+> #!/bin/sh
+> awk -v step=$1 'BEGIN { for (i = 0; i < 1024; i++) printf "%s%.5f: %.1f", i ? ", " : "", i * step, (i * 7 % 9 + 1) / 10 }'
+> END
+> chmod +x bin/keys; printf 'kiln: 1\noutput: {size: [32, 18], frames: 9}\nsystems:\n' >keys.yaml
+> over_time="{keys: {$(bin/keys 0.0001)}}" over_life="{life: {$(bin/keys 0.0009)}}"
+> for s in $(seq 31); do
+>     echo "  s$s: {emit: {rate: 600, speed: $over_time}, forces: [wind: {velocity: [$s, 0, 0], pull: $over_life}]}"
+> done >>keys.yaml
+> echo "  last: {emit: {rate: 600, life: $over_time}, forces: [drag: $over_life]}" >>keys.yaml
+$ bin/states keys.yaml
+1|  state        7eceb231a521a9a3
+$ { grep -v ' s31' keys.yaml; echo '  ball: {emit: {rate: 600, speed: {keys: {0: 1, 1: 2}}}, look: {shape: sphere}, interact: [collide: {radius: {life: [1 cm, 2 cm]}}]}'; } >balls.yaml
+$ bin/states balls.yaml
+1|  state        f921504037f8c953
+$ { cat keys.yaml; echo '  more: {emit: {rate: {keys: {0: 1}}}}'; } >more.yaml; kiln check more.yaml
+2|more.yaml:36:30: systems.more.emit.rate.keys: 1 keys are too many; a scene has at most 65536, and 65536 of them are used already
+= 3
+$ grep -v ' s[23456789]' keys.yaml >few.yaml; kiln render few.yaml -q -o none --frames 0 --device software --technique simulate=pingpong
+2|kiln: scene: found 24576 keys; the technique simulate=pingpong takes at most 1024: use simulate=inplace
+= 2
+$ sed '/ s/s/speed/life/' few.yaml >lives.yaml; kiln render lives.yaml -q -o none --frames 0 --device software --technique raster=geometry
+2|kiln: systems: found 12288 keys of lives; OpenGL takes at most 1024 of them: use the device cpu
+= 2
