@@ -33,7 +33,8 @@ set(kiln_test_times
         gpu.shadows gpu.shutter gpu.sort gpu.states mutation.effects package.lintian unit.host unit.motion
         unit.slots versions.0.1"
     "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort
-        all.unit.fragments all.unit.host/3 golden.readers golden.suite gpu.backdrops report.page tree.flicker"
+        all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers golden.suite gpu.backdrops
+        report.page tree.flicker"
     "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.simulate
         tree.tidy/4"
     "80 farm.slurm package.ci package.container"

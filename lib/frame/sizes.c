@@ -2,7 +2,10 @@
  * comparison with papers keep the limits that all scenes had in 0.2. */
 #include "frame/sizes.h"
 
+#include <inttypes.h>
+
 #include "base/error.h"
+#include "scene/work.h"
 
 /* Returns the technique for comparison with papers that a stage runs, as the user writes it; NULL:
  * none does. */
@@ -47,18 +50,29 @@ static uint32_t count_life_keys(const struct kiln_scene *scene)
     return count;
 }
 
-static bool check_drawing(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
-                          struct kiln_error *error)
+/* Checks what the whole device must take, whichever of its techniques run. */
+static bool check_device(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                         struct kiln_error *error)
 {
-    const bool on_host = techniques->simulate == KILN_SIMULATE_CPU &&
-                         techniques->backdrop == KILN_BACKDROP_CPU &&
-                         techniques->raster == KILN_RASTER_CPU;
-    const uint32_t found = count_life_keys(scene);
-    return on_host || found <= KILN_BLOCK_KEYS ||
-           kiln_error_set(error, KILN_USAGE,
-                          "systems: found %u keys of lives; OpenGL takes at most %d of them: use "
-                          "the device %s",
-                          found, KILN_BLOCK_KEYS, KILN_DEVICE_CPU);
+    const bool on_host =
+        techniques->simulate == KILN_SIMULATE_CPU && techniques->sort == KILN_SORT_CPU &&
+        techniques->backdrop == KILN_BACKDROP_CPU && techniques->raster == KILN_RASTER_CPU;
+    const struct {
+        const char *noun;
+        uint64_t found;
+        int most;
+    } rows[] = {
+        {"particles at once", kiln_work_particles(scene), KILN_MAX_GL_PARTICLES},
+        {"keys of lives", count_life_keys(scene), KILN_BLOCK_KEYS},
+    };
+    for (size_t i = 0; !on_host && i < sizeof rows / sizeof *rows; i++) {
+        if (rows[i].found > (uint64_t)rows[i].most)
+            return kiln_error_set(error, KILN_USAGE,
+                                  "systems: found up to %" PRIu64 " %s; OpenGL takes at most %d: "
+                                  "use the device %s",
+                                  rows[i].found, rows[i].noun, rows[i].most, KILN_DEVICE_CPU);
+    }
+    return true;
 }
 
 bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
@@ -79,5 +93,5 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
                 error, KILN_USAGE, "%s: found %u %s; the technique %s takes at most %u: use %s",
                 rows[i].path, rows[i].found, rows[i].noun, paper, rows[i].most, instead);
     }
-    return check_drawing(scene, techniques, error);
+    return check_device(scene, techniques, error);
 }

@@ -156,7 +156,7 @@ static const struct size {
     const char *help;
 } sizes[] = {
     {"systems", KILN_MAX_SYSTEMS, "Particle systems."},
-    {"particles", KILN_MAX_PARTICLES, "Particles that may live at once, of all systems."},
+    {"particles", KILN_MAX_PARTICLES, "Particles that may live at once; in OpenGL, 16777216."},
     {"forces", KILN_MAX_FORCES, "Forces of a system."},
     {"bursts", KILN_MAX_BURSTS, "Bursts of a system."},
     {"demitters", KILN_MAX_DEMITTERS, "Boxes of a system in which particles die."},

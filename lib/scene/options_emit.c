@@ -102,7 +102,7 @@ static const char *const aligns[] = {
     NULL,
 };
 
-/* With 65536 children each, the children of 256 particles fit into KILN_MAX_PARTICLES slots. */
+/* With 65536 children each, the children of 512 particles fit into KILN_MAX_PARTICLES slots. */
 #define COUNT                                                                                      \
     INTEGER(MOTION, "count", parent.count, 1, 65536, "10",                                         \
             "Number of particles born at the event of one particle of the parent.")

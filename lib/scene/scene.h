@@ -23,8 +23,11 @@
 
 enum {
     /* limits that shaders use, too, are in shared/limits.h and particle.h */
-    KILN_MAX_CELLS = 2048,        /* cells of an atlas: the texture layers that every GL 4.3 has */
-    KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: the most that a draw entry can address */
+    KILN_MAX_CELLS = 2048, /* cells of an atlas: the texture layers that every GL 4.3 has */
+    /* slots of all systems, half of those that a draw entry can address: offsets of bytes in the
+     * records fit into 31 bits. GL takes fewer (KILN_MAX_GL_PARTICLES). */
+    KILN_MAX_PARTICLES = 1 << 25,
+    KILN_MAX_GL_PARTICLES = 1 << 24,
 };
 
 /* Limits of particles that are meshes. */

@@ -196,10 +196,10 @@ static void expect_large(struct kiln_buffer *list, uint32_t count)
     }
 }
 
-/* The radix sort orders 2^24 entries; no technique of GL takes more. */
+/* The radix sort orders the longest list that GL takes. */
 static void the_most_particles_are_sorted(void **state)
 {
-    const uint32_t count = 1u << 24;
+    const uint32_t count = KILN_MAX_GL_PARTICLES;
     struct kiln_error error = {0};
     struct kiln_radix *radix = kiln_radix_create(*state, &error);
     assert_non_null(radix);

@@ -68,13 +68,13 @@ static const struct bad families[] = {
      "systems:\n"
      "  a: {emit: {rate: 1000}}\n" CHILD("b", "a", "{death: 60000}"),
      ":4:13: systems.b.emit: up to 123000000 particles at once need 3753 MiB; the systems of a "
-     "scene may have 16777216 in all (512 MiB), of which 2050 are taken: lower children, or the "
+     "scene may have 33554432 in all (1024 MiB), of which 2050 are taken: lower children, or the "
      "parents' rate or life"},
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1, life: 10000 s}}\n" CHILD("b", "a", "{trail: 100000}"),
      ":4:38: systems.b.emit.parent.on: up to 1000001931 particles are born of one particle; at "
-     "most 16777216 are allowed"},
+     "most 33554432 are allowed"},
     {"kiln: 1\n"
      "output: {frames: 30000}\n"
      "systems:\n"

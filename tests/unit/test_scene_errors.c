@@ -143,7 +143,7 @@ static const struct bad types[] = {
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: [1]}}}\n",
      ":2:30: systems.a.emit.bursts: expected {time: particles, ...}, each number of particles a "
-     "whole number from 0 to 16777216, found a list"},
+     "whole number from 0 to 33554432, found a list"},
     {"kiln: 1\n"
      "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "
@@ -436,11 +436,12 @@ static const struct bad agreement[] = {
     {"kiln: 1\n"
      "systems: {a: {emit: {rate: 10000000, life: 100 s}}}\n",
      ":2:21: systems.a.emit: up to 49666667 particles at once need 1515 MiB; the systems of a "
-     "scene may have 16777216 in all (512 MiB), of which 0 are taken: lower rate, bursts or life"},
+     "scene may have 33554432 in all (1024 MiB), of which 0 are taken: lower rate, bursts or life"},
     {"kiln: 1\n"
-     "systems: {a: {emit: {bursts: {1 s: 10000000}}}, b: {emit: {bursts: {1 s: 10000000}}}}\n",
-     ":2:59: systems.b.emit: up to 10000000 particles at once need 305 MiB; the systems of a scene "
-     "may have 16777216 in all (512 MiB), of which 10000000 are taken: lower rate, bursts or life"},
+     "systems: {a: {emit: {bursts: {1 s: 20000000}}}, b: {emit: {bursts: {1 s: 20000000}}}}\n",
+     ":2:59: systems.b.emit: up to 20000000 particles at once need 610 MiB; the systems of a scene "
+     "may have 33554432 in all (1024 MiB), of which 20000000 are taken: lower rate, bursts or "
+     "life"},
     {"kiln: 1\n"
      "output: {frames: 100000}\n"
      "systems: {a: {emit: {rate: 10000000, life: 0.1 s}}}\n",

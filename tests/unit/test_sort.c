@@ -86,12 +86,12 @@ static void keys_of_any_span_are_sorted(void **state)
     kiln_threads_destroy(&threads);
 }
 
-/* As many as a draw entry can address: ascending keys, and places where keys are equal, so that
+/* As many as a scene may have: ascending keys, and places where keys are equal, so that
  * none can occur twice. */
 static void the_most_particles_are_sorted(void **state)
 {
     (void)state;
-    const uint32_t count = 1u << 24;
+    const uint32_t count = KILN_MAX_PARTICLES;
     kiln_sort_pair *pairs = malloc(count * sizeof *pairs);
     kiln_sort_pair *list = malloc(count * sizeof *list); /* scratch on the way */
     uint32_t *places = (uint32_t *)(void *)list;

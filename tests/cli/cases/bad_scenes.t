@@ -54,7 +54,7 @@ $ printf 'kiln: 1\npost: {tonemap: agxx}\n' | ./try choice
 2|choice.yaml:2:17: post.tonemap: unknown word 'agxx' (did you mean 'agx'?)
 = 3
 $ printf 'kiln: 1\nsystems:\n  fire:\n    emit: {rate: 10000000, life: 1000 s, speed: 1}\n' | ./try capacity
-2|capacity.yaml:4:11: systems.fire.emit: up to 49666667 particles at once need 1515 MiB; the systems of a scene may have 16777216 in all (512 MiB), of which 0 are taken: lower rate, bursts or life
+2|capacity.yaml:4:11: systems.fire.emit: up to 49666667 particles at once need 1515 MiB; the systems of a scene may have 33554432 in all (1024 MiB), of which 0 are taken: lower rate, bursts or life
 = 3
 
 Files.

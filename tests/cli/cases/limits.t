@@ -112,7 +112,7 @@ $ kiln help limits | sed -n '20,$p'
 1|A scene has at most these, whatever the limits:
 1|
 1|systems       64          Particle systems.
-1|particles     16777216    Particles that may live at once, of all systems.
+1|particles     33554432    Particles that may live at once; in OpenGL, 16777216.
 1|forces        32          Forces of a system.
 1|bursts        64          Bursts of a system.
 1|demitters     8           Boxes of a system in which particles die.

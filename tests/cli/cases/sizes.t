@@ -80,5 +80,15 @@ $ grep -v ' s[23456789]' keys.yaml >few.yaml; kiln render few.yaml -q -o none --
 2|kiln: scene: found 24576 keys; the technique simulate=pingpong takes at most 1024: use simulate=inplace
 = 2
 $ sed '/ s/s/speed/life/' few.yaml >lives.yaml; kiln render lives.yaml -q -o none --frames 0 --device software --technique raster=geometry
-2|kiln: systems: found 12288 keys of lives; OpenGL takes at most 1024 of them: use the device cpu
+2|kiln: systems: found up to 12288 keys of lives; OpenGL takes at most 1024: use the device cpu
+= 2
+
+Particles; OpenGL takes half as many. unit.sizes steps and draws them:
+
+$ printf 'kiln: 1\noutput: {size: [32, 18]}\nsystems:\n  dust: {emit: {bursts: {0 s: 33554432}}}\n' >dust.yaml
+> kiln check -q dust.yaml; { cat dust.yaml; echo '  more: {emit: {rate: 1}}'; } >more.yaml; kiln check more.yaml
+2|more.yaml:5:16: systems.more.emit: up to 2 particles at once need 0 MiB; the systems of a scene may have 33554432 in all (1024 MiB), of which 33554432 are taken: lower rate, bursts or life
+= 3
+$ kiln render dust.yaml -q -o none --frames 0 --device software --technique raster=geometry
+2|kiln: systems: found up to 33554432 particles at once; OpenGL takes at most 16777216: use the device cpu
 = 2
