@@ -1,7 +1,8 @@
 /* This file joins shader files by their includes and maps lines of the driver's messages back to
- * the files. A file is inserted each time it is included, since headers have include guards, which
- * the GLSL preprocessor understands. Lines with "#include <...>" are for the C side of shared
- * headers and are left out. */
+ * the files. A header with an include guard that was inserted outside of every #if is inserted only
+ * once: a kernel would otherwise have millions of lines. Other files are inserted each time they
+ * are included, since only the GLSL preprocessor knows which parts of #if it reads. Lines with
+ * "#include <...>" are for the C side of shared headers and are left out. */
 #include "gpu/source.h"
 
 #include <ctype.h>
@@ -22,6 +23,8 @@ struct open_file {
     const char *path;
     size_t line;     /* number of the line that is being read; for messages */
     bool in_comment; /* a block comment is open */
+    bool is_guarded; /* the whole file lies in an include guard */
+    size_t depth;    /* of #if at the line, with the include guard */
 };
 
 static bool is_safe_path(const char *path)
@@ -122,6 +125,28 @@ static size_t file_number(struct kiln_source *source, const char *path)
     return source->file_count++;
 }
 
+/* Returns whether a file has been inserted where the preprocessor has read it if it reads the
+ * present line: in the present branch of #if or in one around it. */
+static bool was_inserted(const struct kiln_source *source, const char *path)
+{
+    size_t in = 0;
+    for (size_t i = 0; i < source->file_count; i++)
+        if (strcmp(source->files[i], path) == 0)
+            in = source->inserted_in[i];
+    bool found = in == KILN_SOURCE_WHOLE;
+    for (size_t i = 0; i < source->branch_count && i < KILN_MAX_SOURCE_BRANCHES; i++)
+        found = found || in == source->branches[i];
+    return found;
+}
+
+/* Notes that a file with an include guard is in the text, in the present branch of #if. */
+static void note_inserted(struct kiln_source *source, size_t file)
+{
+    const size_t count = source->branch_count;
+    if (count <= KILN_MAX_SOURCE_BRANCHES)
+        source->inserted_in[file] = count > 0 ? source->branches[count - 1] : KILN_SOURCE_WHOLE;
+}
+
 /* Records the file and line that the next lines of the joined text come from. */
 static void begin_piece(struct kiln_source *source, size_t file, size_t file_line)
 {
@@ -163,26 +188,88 @@ static void follow_comments(struct open_file *open_file, const char *line, size_
     }
 }
 
+static const char *skip_blanks(const char *at, const char *end)
+{
+    while (at < end && isblank((unsigned char)*at))
+        at++;
+    return at;
+}
+
+/* Returns the end of a directive's word, such as "include" or the "if" of "ifdef", or NULL if a
+ * line has no such directive. */
+static const char *after_directive(const char *line, size_t length, const char *word)
+{
+    const char *const end = line + length;
+    const char *at = skip_blanks(line, end);
+    const size_t word_length = strlen(word);
+    if (at == end || *at != '#')
+        return NULL;
+    at = skip_blanks(at + 1, end);
+    if ((size_t)(end - at) < word_length || strncmp(at, word, word_length) != 0)
+        return NULL;
+    return at + word_length;
+}
+
+/* Returns whether a file's first and second directive are an include guard without #else, whose
+ * #endif is its last directive. The file's comments must not look like directives. */
+static bool is_guarded(const char *text)
+{
+    size_t depth = 0, count = 0;
+    bool guarded = true;
+    for (const char *line = text; guarded && *line;) {
+        const size_t length = strcspn(line, "\n");
+        if (after_directive(line, length, "")) {
+            count++;
+            guarded = (count != 1 || after_directive(line, length, "ifndef")) &&
+                      (count != 2 || after_directive(line, length, "define")) &&
+                      (count == 1 || depth > 0) &&
+                      (depth > 1 || !after_directive(line, length, "el"));
+            depth += after_directive(line, length, "if") != NULL;
+            depth -= after_directive(line, length, "endif") != NULL;
+        }
+        line += length + (line[length] == '\n');
+    }
+    return guarded && count > 2 && depth == 0;
+}
+
+/* Sets the innermost branch of #if to one that was not seen before. */
+static void begin_branch(struct kiln_source *source)
+{
+    const size_t count = source->branch_count;
+    source->last_branch++;
+    if (count > 0 && count <= KILN_MAX_SOURCE_BRANCHES)
+        source->branches[count - 1] = source->last_branch;
+}
+
+/* Follows the branches of #if through one line. An include guard is no branch. */
+static void follow_branches(struct kiln_source *source, struct open_file *open_file,
+                            const char *line, size_t length)
+{
+    const size_t outermost = open_file->is_guarded ? 1 : 0;
+    if (after_directive(line, length, "if")) {
+        open_file->depth++;
+        if (open_file->depth > outermost) {
+            source->branch_count++;
+            begin_branch(source);
+        }
+    } else if (open_file->depth > outermost && after_directive(line, length, "el")) {
+        begin_branch(source);
+    } else if (open_file->depth > 0 && after_directive(line, length, "endif")) {
+        source->branch_count -= open_file->depth > outermost;
+        open_file->depth--;
+    }
+}
+
 enum directive { NOT_INCLUDE, INCLUDE_OURS, INCLUDE_SYSTEM, INCLUDE_MALFORMED };
 
 /* Recognises an include and copies its path. */
 static enum directive read_include(const char *line, size_t length, char path[KILN_MAX_SOURCE_PATH])
 {
     const char *const end = line + length;
-    const char *at = line;
-    while (at < end && isblank((unsigned char)*at))
-        at++;
-    if (at == end || *at++ != '#')
+    const char *at = after_directive(line, length, "include");
+    if (!at)
         return NOT_INCLUDE;
-    while (at < end && isblank((unsigned char)*at))
-        at++;
-    static const char word[] = "include";
-    const size_t word_length = sizeof word - 1;
-    if ((size_t)(end - at) < word_length || strncmp(at, word, word_length) != 0)
-        return NOT_INCLUDE;
-    at += word_length;
-    while (at < end && isblank((unsigned char)*at))
-        at++;
+    at = skip_blanks(at, end);
     if (at < end && *at == '<')
         return INCLUDE_SYSTEM;
     if (at == end || *at++ != '"')
@@ -212,6 +299,10 @@ static bool add_line(struct kiln_source *source, struct open_file *open_file, si
         put_line(source, "", 0);
         return true;
     case INCLUDE_OURS: {
+        if (was_inserted(source, path)) {
+            put_line(source, "", 0);
+            return true;
+        }
         struct open_file included = {.includer = open_file, .path = path};
         if (!add_file(source, &included, error))
             return false;
@@ -221,6 +312,8 @@ static bool add_line(struct kiln_source *source, struct open_file *open_file, si
     case NOT_INCLUDE:
         break;
     }
+    if (!open_file->in_comment)
+        follow_branches(source, open_file, line, length);
     follow_comments(open_file, line, length);
     put_line(source, line, length);
     return true;
@@ -243,6 +336,9 @@ static bool add_file(struct kiln_source *source, struct open_file *open_file,
                             KILN_MAX_SOURCE_FILES);
     else
         begin_piece(source, file, 1);
+    open_file->is_guarded = is_guarded(text);
+    if (ok && open_file->is_guarded)
+        note_inserted(source, file);
     for (const char *line = text; ok && *line;) {
         const char *end = strchr(line, '\n');
         size_t length = end ? (size_t)(end - line) : strlen(line);

@@ -6,7 +6,10 @@
 #include "base/text.h"
 #include "kiln.h"
 
-enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128 };
+enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128, KILN_MAX_SOURCE_BRANCHES = 32 };
+
+/* The number of no branch of #if: what is outside of all. */
+#define KILN_SOURCE_WHOLE SIZE_MAX
 
 /* Describes lines of the joined text that come from one file: those from `line` up to the next
  * piece. */
@@ -24,6 +27,10 @@ struct kiln_source {
     size_t line_count;
     char files[KILN_MAX_SOURCE_FILES][KILN_MAX_SOURCE_PATH];
     size_t file_count;
+    /* Branches of #if have numbers, and a file that is in the text with an include guard has that
+     * of its branch, or KILN_SOURCE_WHOLE. */
+    size_t branches[KILN_MAX_SOURCE_BRANCHES], branch_count, last_branch;
+    size_t inserted_in[KILN_MAX_SOURCE_FILES];
     struct kiln_source_piece *pieces;
     size_t piece_count, piece_capacity;
 };

@@ -236,6 +236,53 @@ static void overrides_replace_single_files(void **state)
     free(text);
 }
 
+static size_t occurrences(const char *text, const char *word)
+{
+    size_t count = 0;
+    for (const char *at = strstr(text, word); at; at = strstr(at + 1, word))
+        count++;
+    return count;
+}
+
+/* A header with an include guard is in the text once in each branch of #if that needs it, and a
+ * file without one wherever it is included. */
+static void guarded_headers_are_not_repeated(void **state)
+{
+    struct fixture *fixture = *state;
+    static const struct {
+        const char *deep, *main;
+        size_t count;
+    } cases[] = {
+        {"#ifndef D\n#define D\nmark\n#endif\n", "#include \"deep.h\"\n#include \"deep.h\"\n", 1},
+        {"mark\n", "#include \"deep.h\"\n#include \"deep.h\"\n", 2},
+        {"#ifndef D\n#define D\nmark\n#endif\n#ifdef E\n#endif\n",
+         "#include \"deep.h\"\n#include \"deep.h\"\n", 2},
+        {"#ifndef D\n#define D\nmark\n#else\n#endif\n",
+         "#include \"deep.h\"\n#include \"deep.h\"\n", 2},
+        {"#ifndef D\n#define D\n#if 1\nmark\n#else\n#endif\n#endif\n",
+         "#include \"deep.h\"\n#include \"deep.h\"\n", 1},
+        {"#ifndef D\n#define D\nmark\n#endif\n",
+         "#ifdef A\n#include \"deep.h\"\n#include \"deep.h\"\n#endif\n#include \"deep.h\"\n", 2},
+        {"#ifndef D\n#define D\nmark\n#endif\n",
+         "#ifdef A\n#include \"deep.h\"\n#else\n#include \"deep.h\"\n#endif\n", 2},
+        {"#ifndef D\n#define D\nmark\n#endif\n",
+         "#if A\n#include \"deep.h\"\n#if B\n#include \"deep.h\"\n#endif\n#endif\n", 1},
+        {"#ifndef D\n#define D\nmark\n#endif\n",
+         "#include \"deep.h\"\n#if B\n#include \"deep.h\"\n#endif\n", 1},
+        {"#ifndef D\n#define D\nmark\n#endif\n",
+         "#ifdef A\n#include \"deep.h\"\n#endif\n#ifdef A\n#include \"deep.h\"\n#endif\n", 2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kiln_error error = {0};
+        write_file(fixture, "deep.h", cases[i].deep);
+        write_file(fixture, "main.comp", cases[i].main);
+        char *text = kiln_program_source("main.comp", NULL, &error);
+        assert_non_null(text);
+        assert_int_equal(occurrences(text, "mark"), cases[i].count);
+        free(text);
+    }
+}
+
 static void unreadable_overrides_are_errors(void **state)
 {
     struct fixture *fixture = *state;
@@ -300,6 +347,7 @@ int main(void)
         cmocka_unit_test(wrong_includes_name_file_and_line),
         cmocka_unit_test(link_errors_name_the_files),
         cmocka_unit_test(overrides_replace_single_files),
+        cmocka_unit_test(guarded_headers_are_not_repeated),
         cmocka_unit_test(unreadable_overrides_are_errors),
         cmocka_unit_test(driver_messages_are_mapped),
     };
