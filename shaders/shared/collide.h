@@ -12,12 +12,15 @@
 #define KILN_SHARED_COLLIDE_H
 
 #include "shared/collide_answer.h"
+#include "shared/uses.h"
 
 /* Shaders of scenes without round colliders are compiled without their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_ROUND)
 #define COLLIDE_IS_ROUND(collider) false
 #else
-#define COLLIDE_IS_ROUND(collider) ((collider).kind != COLLIDER_BOX)
+#define COLLIDE_IS_ROUND(collider)                                                                 \
+    ((USES(USES_COLLIDERS, COLLIDER_SPHERE) || USES(USES_COLLIDERS, COLLIDER_CYLINDER)) &&         \
+     (collider).kind != COLLIDER_BOX)
 #endif
 
 /* Shaders of scenes without shapes in frames of their own are compiled without their code. */

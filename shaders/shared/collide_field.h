@@ -25,6 +25,12 @@
 #include "shared/collide_depth.h"
 #endif
 
+/* Returns whether a collider that is neither a volume nor a depth map is terrain, and not a
+ * distance field. Shaders of scenes with one of the two kinds have no other code. */
+#define COLLIDE_IS_TERRAIN(collider)                                                               \
+    (USES(USES_COLLIDERS, COLLIDER_TERRAIN) &&                                                     \
+     (!USES(USES_COLLIDERS, COLLIDER_SDF) || (collider).kind == COLLIDER_TERRAIN))
+
 /* Intersects a segment between two parts of the step, as collide_through does. */
 FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float since, float until,
                                          float3 a, float3 b)
@@ -43,9 +49,9 @@ FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float sin
     }
 #endif
 #if COLLIDE_HAS_GRIDS
-    if (c.kind == COLLIDER_TERRAIN)
+    if (COLLIDE_IS_TERRAIN(c))
         span = terrain_segment(SIM c, a, b);
-    else
+    else if (USES(USES_COLLIDERS, COLLIDER_SDF))
         span = sdf_segment(SIM c, since, until, a, b);
 #endif
     return span;
@@ -67,9 +73,9 @@ FN bool collide_field_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p
     }
 #endif
 #if COLLIDE_HAS_GRIDS
-    if (c.kind == COLLIDER_TERRAIN)
+    if (COLLIDE_IS_TERRAIN(c))
         inside = terrain_is_inside(SIM c, p);
-    else
+    else if (USES(USES_COLLIDERS, COLLIDER_SDF))
         inside = sdf_is_inside(SIM c, until, p);
 #endif
     return inside;
@@ -92,12 +98,12 @@ FN S(collide_ground) collide_field_ground(SIM_PARAM S(kiln_collider) c, uint fac
     }
 #endif
 #if COLLIDE_HAS_GRIDS
-    if (c.kind != COLLIDER_TERRAIN)
-        ground = sdf_ground(SIM c, since, p);
-    else if (face == COLLIDE_SURFACE)
+    if (COLLIDE_IS_TERRAIN(c) && face == COLLIDE_SURFACE)
         ground = terrain_ground(SIM c, p);
-    else
+    else if (COLLIDE_IS_TERRAIN(c))
         ground = terrain_wall(c, face, p);
+    else if (USES(USES_COLLIDERS, COLLIDER_SDF))
+        ground = sdf_ground(SIM c, since, p);
 #endif
     return ground;
 }
@@ -112,7 +118,7 @@ FN S(collide_box) collide_field_below(SIM_PARAM S(kiln_collider) c, S(collide_bo
         below.max.y = p.y;
 #endif
 #if COLLIDE_HAS_GRIDS
-    if (c.kind == COLLIDER_TERRAIN) {
+    if (USES(USES_COLLIDERS, COLLIDER_TERRAIN) && c.kind == COLLIDER_TERRAIN) {
         EXACT S(collide_ground) ground = terrain_ground(SIM c, p);
         below.max.y = ground.position.y;
     }

@@ -6,6 +6,7 @@
 #include "shared/layout.h"
 #include "shared/particle.h"
 #include "shared/random.h"
+#include "shared/uses.h"
 
 /* Returns the particle's stream of random numbers. */
 FN uint particle_stream(S(kiln_derived_params) d, S(kiln_particle) p)
@@ -26,8 +27,8 @@ FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
 FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_particle) p)
 {
     EXACT float born_s = particle_birth_time(d, p);
-    EXACT float low = value_at(VALUE_KEYS d.life.min, born_s, 0.0f);
-    EXACT float high = value_at(VALUE_KEYS d.life.max, born_s, 0.0f);
+    EXACT float low = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.min, born_s, 0.0f);
+    EXACT float high = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.max, born_s, 0.0f);
     EXACT float life_s = random_between(particle_stream(d, p), RANDOM_LIFE, low, high);
     return life_s;
 }

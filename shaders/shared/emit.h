@@ -27,7 +27,7 @@ struct emit_place {
 /* Returns a place uniform in the box, or on its six faces by their area. */
 FN float3 emit_in_box(SIM_PARAM uint stream, float time_s)
 {
-    EXACT float3 size = value3_at(SIM_KEYS STEP(emit.size), time_s, 0.0f);
+    EXACT float3 size = VALUE3_OF(KEYED_SIZE, SIM_KEYS STEP(emit.size), time_s, 0.0f);
     EXACT float3 at = FLOAT3(random_unit(stream, RANDOM_PLACE) - 0.5f,
                              random_unit(stream, RANDOM_PLACE + 1u) - 0.5f,
                              random_unit(stream, RANDOM_PLACE + 2u) - 0.5f);
@@ -64,7 +64,7 @@ FN float3 emit_on_disc(uint stream, uint purpose, float3 axis, float radius, boo
 /* Returns a place on the line: at the nozzle that is next in turn, or anywhere. */
 FN float3 emit_on_line(SIM_PARAM uint stream, uint serial, float time_s)
 {
-    EXACT float3 span = value3_at(SIM_KEYS STEP(emit.size), time_s, 0.0f);
+    EXACT float3 span = VALUE3_OF(KEYED_SIZE, SIM_KEYS STEP(emit.size), time_s, 0.0f);
     uint nozzles = STEP(emit.nozzles);
     EXACT float part = random_unit(stream, RANDOM_PLACE);
     if (nozzles != 0u)
@@ -77,32 +77,32 @@ FN float3 emit_on_line(SIM_PARAM uint stream, uint serial, float time_s)
 FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
-    EXACT float3 towards = value3_at(SIM_KEYS STEP(emit.direction), time_s, 0.0f);
+    EXACT float3 towards = VALUE3_OF(KEYED_DIRECTION, SIM_KEYS STEP(emit.direction), time_s, 0.0f);
     EXACT float3 axis = float3_normalize(towards, up);
-    EXACT float angle = value_at(SIM_KEYS STEP(emit.angle), time_s, 0.0f);
+    EXACT float angle = VALUE_OF(KEYED_ANGLE, SIM_KEYS STEP(emit.angle), time_s, 0.0f);
     EXACT S(exact_angle) rim = exact_sincos(angle);
-    EXACT float radius = value_at(SIM_KEYS STEP(emit.radius), time_s, 0.0f);
+    EXACT float radius = VALUE_OF(KEYED_RADIUS, SIM_KEYS STEP(emit.radius), time_s, 0.0f);
     EXACT S(emit_place) place;
     place.axis = axis;
     place.direction = random_direction(stream, RANDOM_DIRECTION, axis, rim.cosine);
     place.offset = FLOAT3(0.0f, 0.0f, 0.0f);
     uint shape = STEP(emit.shape);
     bool surface = STEP(emit.surface) != 0u;
-    if (shape == EMIT_SPHERE) {
+    if (USES(USES_SHAPES, EMIT_SPHERE) && shape == EMIT_SPHERE) {
         EXACT float3 unit = random_in_ball(stream, RANDOM_PLACE, surface);
         place.offset = float3_scale(unit, radius);
         if (STEP(emit.outward) != 0u)
             place.direction = float3_normalize(unit, axis);
-    } else if (shape == EMIT_BOX) {
+    } else if (USES(USES_SHAPES, EMIT_BOX) && shape == EMIT_BOX) {
         place.offset = emit_in_box(SIM stream, time_s);
-    } else if (shape == EMIT_DISC) {
+    } else if (USES(USES_SHAPES, EMIT_DISC) && shape == EMIT_DISC) {
         place.offset = emit_on_disc(stream, RANDOM_PLACE, axis, radius, surface);
-    } else if (shape == EMIT_CONE) {
+    } else if (USES(USES_SHAPES, EMIT_CONE) && shape == EMIT_CONE) {
         /* A nozzle's stream widens by the angle. Place and direction share their random numbers:
          * the farther from the middle a particle starts, the farther from the axis it flies, as if
          * all came from one point behind. */
         place.offset = emit_on_disc(stream, RANDOM_DIRECTION, axis, radius, false);
-    } else if (shape == EMIT_LINE) {
+    } else if (USES(USES_SHAPES, EMIT_LINE) && shape == EMIT_LINE) {
         place.offset = emit_on_line(SIM stream, serial, time_s);
     }
     return place;
@@ -117,13 +117,13 @@ struct emit_state {
 FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT S(emit_place) place = emit_place_at(SIM stream, serial, time_s);
-    EXACT float slowest = value_at(SIM_KEYS STEP(emit.speed.min), time_s, 0.0f);
-    EXACT float fastest = value_at(SIM_KEYS STEP(emit.speed.max), time_s, 0.0f);
+    EXACT float slowest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.min), time_s, 0.0f);
+    EXACT float fastest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.max), time_s, 0.0f);
     EXACT float speed = random_between(stream, RANDOM_SPEED, slowest, fastest);
-    EXACT float3 origin = value3_at(SIM_KEYS STEP(emit.origin), time_s, 0.0f);
+    EXACT float3 origin = VALUE3_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin), time_s, 0.0f);
     EXACT S(emit_state) born;
     born.position = float3_add(origin, place.offset);
-    EXACT float turn = value_at(SIM_KEYS STEP(emit.turn), time_s, 0.0f);
+    EXACT float turn = VALUE_OF(KEYED_TURN, SIM_KEYS STEP(emit.turn), time_s, 0.0f);
     EXACT float3 around = float3_cross(place.axis, place.offset);
     EXACT float3 thrown = float3_scale(place.direction, speed);
     born.velocity = float3_add_scaled(thrown, around, turn);
@@ -134,10 +134,11 @@ FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
 FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT S(emit_state) born = emit_at_rest(SIM stream, serial, time_s);
-    EXACT float3 origin_rate = FLOAT3(value_rate_at(SIM_KEYS STEP(emit.origin.x), time_s),
-                                      value_rate_at(SIM_KEYS STEP(emit.origin.y), time_s),
-                                      value_rate_at(SIM_KEYS STEP(emit.origin.z), time_s));
-    EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
+    EXACT float3 origin_rate =
+        FLOAT3(VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.x), time_s),
+               VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.y), time_s),
+               VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.z), time_s));
+    EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
     born.velocity = float3_add_scaled(born.velocity, origin_rate, inherit);
     return born;
 }
@@ -158,7 +159,7 @@ FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(
                             float3 axis)
 {
     EXACT S(emit_state) own = emit_at_rest(SIM stream, serial, time_s);
-    EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
+    EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
     EXACT float3 offset = emit_rotate(own.position, axis);
     EXACT float3 thrown = emit_rotate(own.velocity, axis);
     EXACT S(emit_state) born;

@@ -49,7 +49,7 @@ FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
     e.since = 0.0f;
     e.happens = false;
     uint what = t.serial_event.y;
-    if (STEP(family.born_of) == BORN_OF_TRAIL) {
+    if (USES(USES_BIRTHS, BORN_OF_TRAIL) && STEP(family.born_of) == BORN_OF_TRAIL) {
         if ((what & TRACE_ALIVE) != 0u)
             e = family_trail(SIM t, j);
     } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
@@ -66,7 +66,7 @@ FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
 FN S(emit_state) family_parent_at(SIM_PARAM S(kiln_trace) t, float since)
 {
     EXACT S(emit_state) s;
-    if (STEP(family.born_of) == BORN_OF_TRAIL) {
+    if (USES(USES_BIRTHS, BORN_OF_TRAIL) && STEP(family.born_of) == BORN_OF_TRAIL) {
         s = trace_at(t, since);
     } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
         s.position = trace_vector(t.turn);

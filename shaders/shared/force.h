@@ -10,6 +10,7 @@
 
 #include "shared/exact.h"
 #include "shared/layout.h"
+#include "shared/uses.h"
 
 #ifndef GL_core_profile
 #define FORCES_ALL   1

@@ -21,8 +21,11 @@ FN float3 force_limit_one(float3 velocity, float limit)
 FN float3 force_limit_all(SIM_PARAM float3 velocity, float life)
 {
     EXACT float3 y = velocity;
+    if (!USES(USES_FORCES, FORCE_LIMIT))
+        return velocity;
     for (uint i = 0u; i < STEP(force_count); i++) {
-        EXACT float limit = value_at(SIM_KEYS STEP(forces[i].strength), STEP(time_s), life);
+        EXACT float limit =
+            VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), STEP(time_s), life);
         if (STEP(forces[i].kind) == FORCE_LIMIT)
             y = force_limit_one(y, limit);
     }

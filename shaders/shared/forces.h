@@ -39,13 +39,13 @@ FN S(force_effect) forces_one(SIM_PARAM uint kind, S(force_input) force)
 {
     EXACT S(force_effect) effect = force_none();
 #define FORCES_ROW(id, function)                                                                   \
-    if (kind == id)                                                                                \
+    if (USES(USES_FORCES, id) && kind == id)                                                       \
         effect = function(force);
     FORCES(FORCES_ROW)
     FORCES_MORE(FORCES_ROW)
 #undef FORCES_ROW
 #define FORCES_ROW(id, function)                                                                   \
-    if (kind == id)                                                                                \
+    if (USES(USES_FORCES, id) && kind == id)                                                       \
         effect = function(SIM force);
     FORCES_OF_GRIDS(FORCES_ROW)
 #undef FORCES_ROW
@@ -67,7 +67,7 @@ FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
 FN float forces_time_s(SIM_PARAM float time_s)
 {
 #ifdef FORCES_ALL
-    if (STEP(integration) >= INTEGRATE_TRAPEZOID) {
+    if (STEP_INTEGRATION >= INTEGRATE_TRAPEZOID) {
         EXACT float halfway_s = time_s + 0.5f * STEP(derived.dt_s);
         return halfway_s;
     }
@@ -99,14 +99,18 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
     EXACT float time_s = forces_time_s(SIM STEP(time_s));
     EXACT S(force_values) values;
     for (uint i = 0u; i < STEP(force_count); i++) {
-        values.vector = value3_at(SIM_KEYS STEP(forces[i].vector), time_s, life);
-        values.second = value3_at(SIM_KEYS STEP(forces[i].second), time_s, life);
-        values.strength = value_at(SIM_KEYS STEP(forces[i].strength), time_s, life);
-        values.pull = value_at(SIM_KEYS STEP(forces[i].pull), time_s, life);
+        values.vector =
+            VALUE3_OF(KEYED_FORCE_VECTOR, SIM_KEYS STEP(forces[i].vector), time_s, life);
+        values.second =
+            VALUE3_OF(KEYED_FORCE_SECOND, SIM_KEYS STEP(forces[i].second), time_s, life);
+        values.strength =
+            VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), time_s, life);
+        values.pull = VALUE_OF(KEYED_FORCE_PULL, SIM_KEYS STEP(forces[i].pull), time_s, life);
 #ifdef FORCES_ALL
-        values.quadratic = value_at(SIM_KEYS STEP(forces[i].quadratic), time_s, life);
+        values.quadratic =
+            VALUE_OF(KEYED_FORCE_QUADRATIC, SIM_KEYS STEP(forces[i].quadratic), time_s, life);
 #endif
-        values.scale = value_at(SIM_KEYS STEP(forces[i].scale), time_s, life);
+        values.scale = VALUE_OF(KEYED_FORCE_SCALE, SIM_KEYS STEP(forces[i].scale), time_s, life);
         EXACT S(force_input) force = force_input_of(SIM i, position, values);
         EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);
         sum = forces_add(sum, effect);

@@ -20,7 +20,7 @@ FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, f
     if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
         moved.velocity = force_limit_all(SIM moved.velocity, life);
     EXACT float3 carrying = moved.velocity;
-    if (STEP(integration) == INTEGRATE_POSITION_FIRST)
+    if (STEP_INTEGRATION == INTEGRATE_POSITION_FIRST)
         carrying = s.velocity;
     moved.position = float3_add_scaled(s.position, carrying, time_s);
     moved.since = until;
@@ -34,7 +34,7 @@ FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, f
 FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float until, float life)
 {
     EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
-    uint count = stages_count(STEP(integration));
+    uint count = stages_count(STEP_INTEGRATION);
     EXACT S(stages) s = stages_start(start.position, start.velocity);
     for (uint stage = 0u; stage < count; stage++) {
         EXACT S(force_effect) forces = forces_sum(SIM s.at, life);
@@ -43,7 +43,7 @@ FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float unt
             s.moving = force_limit_all(SIM s.moving, life);
     }
     EXACT S(collide_state) moved = start;
-    moved.position = stages_arrive(s, STEP(integration), time_s);
+    moved.position = stages_arrive(s, STEP_INTEGRATION, time_s);
     moved.velocity = s.moving;
     moved.since = until;
     return moved;
@@ -55,7 +55,7 @@ FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float unt
 FN S(collide_state) integrate(SIM_PARAM S(collide_state) s, float until, float life)
 {
 #if defined(FORCES_ALL) && defined(FORCES_PLAIN)
-    if (STEP(integration) < INTEGRATE_TRAPEZOID && (STEP(forces_do) & FORCES_SLOW) == 0u)
+    if (STEP_INTEGRATION < INTEGRATE_TRAPEZOID && (STEP(forces_do) & FORCES_SLOW) == 0u)
         return integrate_plain(SIM s, until, life);
     return integrate_stages(SIM s, until, life);
 #elif defined(FORCES_ALL)

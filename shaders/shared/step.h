@@ -8,6 +8,11 @@
 #include "shared/push.h"
 #include "shared/sweep.h"
 
+/* Returns whether particles of the system meet colliders. */
+#define STEP_COLLIDES                                                                              \
+    ((USES(USES_COLLIDE, COLLIDE_SWEPT) || USES(USES_COLLIDE, COLLIDE_CLAMP)) &&                   \
+     STEP(collide) != COLLIDE_OFF)
+
 /* Limit of places, m, and velocities, m/s: 2^20. A particle beyond it, or with a NaN, is lost. */
 #define STEP_ABSURD_BITS 0x49800000u
 
@@ -72,16 +77,17 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
 FN S(collide_answer) step_answer(SIM_PARAM uint stream, float life, float radius)
 {
     EXACT S(collide_answer) answer;
-    answer.randomness = value_at(SIM_KEYS STEP(randomness), STEP(time_s), life);
-    answer.slowdown = value_at(SIM_KEYS STEP(slowdown), STEP(time_s), life);
+    answer.randomness = VALUE_OF(KEYED_RANDOMNESS, SIM_KEYS STEP(randomness), STEP(time_s), life);
+    answer.slowdown = VALUE_OF(KEYED_SLOWDOWN, SIM_KEYS STEP(slowdown), STEP(time_s), life);
     answer.stream = stream;
     answer.purpose = 0u;
     answer.rubs = STEP(rubs) != 0u;
     answer.restitution = 1.0f;
     answer.friction = 0.0f;
     if (COLLIDE_RUBS(answer)) {
-        answer.restitution = value_at(SIM_KEYS STEP(restitution), STEP(time_s), life);
-        answer.friction = value_at(SIM_KEYS STEP(friction), STEP(time_s), life);
+        answer.restitution =
+            VALUE_OF(KEYED_RESTITUTION, SIM_KEYS STEP(restitution), STEP(time_s), life);
+        answer.friction = VALUE_OF(KEYED_FRICTION, SIM_KEYS STEP(friction), STEP(time_s), life);
     }
     answer.radius = radius;
     answer.spins = STEP(spins) != 0u && radius > 0.0f;
@@ -141,7 +147,7 @@ FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, float lif
 {
     EXACT S(collide_way) bounced;
     EXACT S(collide_state) start = way.start;
-    if (STEP(collide) == COLLIDE_CLAMP) {
+    if (USES(USES_COLLIDE, COLLIDE_CLAMP) && STEP(collide) == COLLIDE_CLAMP) {
         start.velocity = way.end.velocity;
         bounced = collide_clamp(SIM start, way.end.position, way.end.since, answer);
         return bounced;
@@ -162,7 +168,7 @@ FN S(step_way) step_meet(SIM_PARAM S(kiln_particle) p, S(step_way) flown, S(step
     EXACT S(step_way) way = flown;
     if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
         return way;
-    if (STEP(collide) != COLLIDE_OFF) {
+    if (STEP_COLLIDES) {
         EXACT S(collide_answer) answer =
             step_answer(SIM particle_stream(STEP(derived), p), life, push.radius);
         EXACT S(collide_way) bounced = step_collide(SIM way, push.position, life, answer);

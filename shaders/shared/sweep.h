@@ -25,8 +25,15 @@
 #define SWEEP_IS_CURVED      false
 #define SWEEP_POSITION_FIRST false
 #else
-#define SWEEP_IS_CURVED      (STEP(integration) >= INTEGRATE_TRAPEZOID)
-#define SWEEP_POSITION_FIRST (STEP(integration) == INTEGRATE_POSITION_FIRST)
+#define SWEEP_IS_CURVED      (STEP_INTEGRATION >= INTEGRATE_TRAPEZOID)
+#define SWEEP_POSITION_FIRST (STEP_INTEGRATION == INTEGRATE_POSITION_FIRST)
+#endif
+
+/* Shaders of systems outside of families are compiled without the first impact. */
+#if defined(GL_core_profile) && !defined(FAMILY)
+#define SWEEP_TOUCHES false
+#else
+#define SWEEP_TOUCHES true
 #endif
 
 /* Guesses of the time of an impact. The error of each is that of the one before, times the velocity
@@ -246,7 +253,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
                 path.aim = at.since;
                 path.guesses++;
             } else {
-                if (path.bounces == 0u)
+                if (SWEEP_TOUCHES && path.bounces == 0u)
                     way.first = sweep_touch(SIM left, hit, answer.radius);
                 if (path.curved)
                     left = sweep_climb(SIM left, path, at.position, blow);

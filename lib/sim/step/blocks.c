@@ -3,12 +3,12 @@
  * reads nothing back. */
 #include "sim/step/blocks.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "shared/trace.h"
-#include "sim/world/oriented.h"
+#include "sim/step/uses.h"
 
 static size_t step_stride(void)
 {
@@ -151,32 +151,12 @@ GLuint kiln_sim_second(struct kiln_buffer *second, const struct kiln_pool *pool,
     return kiln_buffer_gl(second, KILN_READ_WRITE, error);
 }
 
-static bool has_families(const struct kiln_sim_params *params)
+/* Returns whether there are systems of families, or others. */
+static bool has_systems(const struct kiln_sim_params *params, bool families)
 {
     bool any = false;
     for (uint32_t i = 0; i < params->system_count; i++)
-        any = any || kiln_sim_is_family(&params->systems[i]);
-    return any;
-}
-
-static bool has_round_colliders(const struct kiln_scene *scene)
-{
-    bool any = false;
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
-        const struct kiln_object *object = &scene->backdrop.objects[i];
-        any = any || (object->collide &&
-                      (object->kind == KILN_OBJECT_SPHERE || object->kind == KILN_OBJECT_CYLINDER));
-    }
-    return any;
-}
-
-static bool has_oriented_colliders(const struct kiln_scene *scene)
-{
-    bool any = false;
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
-        const struct kiln_object *object = &scene->backdrop.objects[i];
-        any = any || (object->collide && kiln_object_is_oriented(object));
-    }
+        any = any || kiln_sim_is_family(&params->systems[i]) == families;
     return any;
 }
 
@@ -188,35 +168,45 @@ static bool has_rubbing(const struct kiln_sim_params *params)
     return any;
 }
 
-static bool has_field_colliders(const struct kiln_scene *scene)
-{
-    bool any = false;
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
-        any = any || kiln_sim_grids_needs(&scene->backdrop.objects[i]);
-    return any;
-}
-
-static bool has_depth_maps(const struct kiln_scene *scene)
-{
-    bool any = false;
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
-        const struct kiln_object *object = &scene->backdrop.objects[i];
-        any = any || (object->collide && object->kind == KILN_OBJECT_MESH &&
-                      object->collider == KILN_COLLIDER_DEPTH_MAPS);
-    }
-    return any;
-}
-
-/* The defines of a kernel, which choose the parts of its code that the scene needs. */
-struct defines {
-    char text[512];
+/* Masks of kinds of colliders. */
+enum {
+    KINDS_ROUND = 1u << COLLIDER_SPHERE | 1u << COLLIDER_CYLINDER,
+    KINDS_ORIENTED = 1u << COLLIDER_ORIENTED_BOX | 1u << COLLIDER_ORIENTED_CYLINDER |
+                     1u << COLLIDER_CAPSULE | 1u << COLLIDER_PLANE,
+    KINDS_FIELD = 1u << COLLIDER_TERRAIN | 1u << COLLIDER_SDF | 1u << COLLIDER_DEPTH,
 };
 
-static void add_define(struct defines *defines, const char *name, bool wanted)
+static void add_define(struct kiln_text *defines, const char *name, bool wanted)
 {
-    const size_t length = strlen(defines->text);
     if (wanted)
-        snprintf(defines->text + length, sizeof defines->text - length, "#define %s 1\n", name);
+        kiln_text_add(defines, "#define %s 1\n", name);
+}
+
+/* Adds the defines of a kernel, which choose the parts of its code that its systems need. */
+static void add_defines(struct kiln_text *defines, const struct kiln_device *device,
+                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                        bool families)
+{
+    const uint colliders = kiln_sim_colliders_used(scene);
+    const bool oriented = (colliders & KINDS_ORIENTED) != 0;
+    const bool grids = params->grids->count > 0, pushes = params->push_count > 0;
+    const bool forces = kiln_sim_needs_all_forces(scene);
+    kiln_text_add(defines, "#define SIM_GROUP_SIZE %u\n#define SIM_EMITTER_BIRTHS %u\n",
+                  group_size(device), kiln_sim_emitter_births(device));
+    add_define(defines, "COLLIDE_ROUND", oriented || (colliders & KINDS_ROUND) != 0);
+    add_define(defines, "COLLIDE_ORIENTED", oriented);
+    add_define(defines, "COLLIDE_RUB", has_rubbing(params));
+    add_define(defines, "GRIDS", grids);
+    add_define(defines, "KEYS_STORED", params->grids->key_words > 0);
+    add_define(defines, "COLLIDE_FIELD", (colliders & KINDS_FIELD) != 0);
+    add_define(defines, "COLLIDE_VOLUME", (colliders & 1u << COLLIDER_VOLUME) != 0);
+    add_define(defines, "COLLIDE_DEPTH", (colliders & 1u << COLLIDER_DEPTH) != 0);
+    add_define(defines, "PUSHES", pushes);
+    add_define(defines, "SPINS", params->spin_count > 0);
+    add_define(defines, "FORCES_ALL", forces);
+    add_define(defines, "SWEEP_ALL", scene->integration != KILN_INTEGRATE_SEMI_IMPLICIT);
+    add_define(defines, "FAMILY", families);
+    kiln_sim_add_uses(defines, scene, params, families);
 }
 
 uint32_t kiln_sim_emitter_births(const struct kiln_device *device)
@@ -224,39 +214,31 @@ uint32_t kiln_sim_emitter_births(const struct kiln_device *device)
     return device->info.software ? 1 : SIM_EMITTER_BIRTHS;
 }
 
+/* Creates one of the two programs of a kernel, if a system needs it. */
+static bool create_program(GLuint *program, struct kiln_device *device,
+                           const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                           bool families, struct kiln_program_params files,
+                           struct kiln_error *error)
+{
+    struct kiln_text defines = {0};
+    if (!has_systems(params, families))
+        return true;
+    add_defines(&defines, device, scene, params, families);
+    files.defines = defines.data;
+    *program = defines.failed ? 0 : kiln_program_create(device, &files, error);
+    if (defines.failed)
+        kiln_error_no_memory(error, "the defines of a program");
+    kiln_text_free(&defines);
+    return *program != 0;
+}
+
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error)
 {
     *programs = (struct kiln_sim_programs){.alone = 0};
-    struct defines defines;
-    const bool grids = params->grids->count > 0, oriented = has_oriented_colliders(scene);
-    const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
-    const bool forces = kiln_sim_needs_all_forces(scene);
-    const bool round = has_round_colliders(scene), volumes = params->grids->volumes.count > 0;
-    snprintf(defines.text, sizeof defines.text,
-             "#define SIM_GROUP_SIZE %u\n#define SIM_EMITTER_BIRTHS %u\n", group_size(device),
-             kiln_sim_emitter_births(device));
-    add_define(&defines, "COLLIDE_ROUND",
-               grids || volumes || oriented || pushes || forces || round);
-    add_define(&defines, "COLLIDE_ORIENTED", oriented);
-    add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
-    add_define(&defines, "GRIDS", grids);
-    add_define(&defines, "KEYS_STORED", params->grids->key_words > 0);
-    add_define(&defines, "COLLIDE_FIELD", fields);
-    add_define(&defines, "COLLIDE_VOLUME", volumes);
-    add_define(&defines, "COLLIDE_DEPTH", has_depth_maps(scene));
-    add_define(&defines, "PUSHES", pushes);
-    add_define(&defines, "SPINS", params->spin_count > 0);
-    add_define(&defines, "FORCES_ALL", forces);
-    add_define(&defines, "SWEEP_ALL", scene->integration != KILN_INTEGRATE_SEMI_IMPLICIT);
-    files.defines = defines.text;
-    programs->alone = kiln_program_create(device, &files, error);
-    if (!programs->alone || !has_families(params))
-        return programs->alone != 0;
-    add_define(&defines, "FAMILY", true);
-    programs->family = kiln_program_create(device, &files, error);
-    return programs->family != 0;
+    return create_program(&programs->alone, device, scene, params, false, files, error) &&
+           create_program(&programs->family, device, scene, params, true, files, error);
 }
 
 void kiln_sim_programs_finish(struct kiln_sim_programs *programs)

@@ -71,7 +71,6 @@ static struct kiln_collider round_collider(const struct kiln_scene *scene,
         .center = start.center,
         .center_end = end.center,
         .axis = canon4(axis, start.half_height),
-        .kind = object->kind == KILN_OBJECT_SPHERE ? COLLIDER_SPHERE : COLLIDER_CYLINDER,
         .half_height_end = end.half_height,
     };
 }
@@ -80,10 +79,30 @@ static struct kiln_collider box_collider(const struct kiln_scene *scene,
                                          const struct kiln_object *object, float start_s,
                                          float end_s)
 {
-    struct kiln_collider box = {.kind = COLLIDER_BOX};
+    struct kiln_collider box = {.grid = 0};
     box_corners(scene, object, start_s, &box.min, &box.max);
     box_corners(scene, object, end_s, &box.min_end, &box.max_end);
     return box;
+}
+
+uint kiln_sim_collider_kind(const struct kiln_object *object)
+{
+    if (kiln_object_is_oriented(object))
+        return kiln_oriented_kind(object);
+    switch (object->kind) {
+    case KILN_OBJECT_BOX:
+        return COLLIDER_BOX;
+    case KILN_OBJECT_TERRAIN:
+        return COLLIDER_TERRAIN;
+    case KILN_OBJECT_MESH:
+        if (kiln_volumes_needs(object))
+            return COLLIDER_VOLUME;
+        return object->collider == KILN_COLLIDER_DEPTH_MAPS ? COLLIDER_DEPTH : COLLIDER_SDF;
+    case KILN_OBJECT_SPHERE:
+        return COLLIDER_SPHERE;
+    default:
+        return COLLIDER_CYLINDER;
+    }
 }
 
 /* Makes the floor's collider, a box as wide and deep as the world. */
@@ -108,7 +127,6 @@ static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids,
         .max = FLOAT4(exact_canon(grid->origin.x + width / grid->per_metre.x),
                       exact_canon(grids->top[number] + 0.01f),
                       exact_canon(grid->origin.z + depth / grid->per_metre.z), 0.0f),
-        .kind = COLLIDER_TERRAIN,
         .grid = number,
         .steepest = grids->steepest[number],
     };
@@ -216,13 +234,11 @@ static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
     const struct kiln_object *mesh = &scene->backdrop.objects[index];
     const uint32_t number = grids->of_object[index];
     const struct pose start = pose_at(scene, mesh, start_s), end = pose_at(scene, mesh, end_s);
-    struct kiln_collider field = {
-        .kind = mesh->collider == KILN_COLLIDER_DEPTH_MAPS ? COLLIDER_DEPTH : COLLIDER_SDF,
-        .grid = number,
-        .mesh = number - grids->wind_count};
+    struct kiln_collider field = {.grid = number, .mesh = number - grids->wind_count};
     const struct kiln_grid *grid = &grids->table[number];
-    const struct extent extent =
-        field.kind == COLLIDER_DEPTH ? extent_of_depths(grid) : extent_of_field(grid);
+    const struct extent extent = kiln_sim_collider_kind(mesh) == COLLIDER_DEPTH
+                                     ? extent_of_depths(grid)
+                                     : extent_of_field(grid);
     const float factor =
         memcmp(start.rotation, end.rotation, sizeof start.rotation) != 0 ? 1.5f : 1.0f;
     bound(start, &extent, factor, &field.min, &field.max);
@@ -242,20 +258,31 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
                                             float start_s, float end_s)
 {
     const struct kiln_object *object = &scene->backdrop.objects[index];
+    const uint kind = kiln_sim_collider_kind(object);
     struct kiln_collider c;
-    if (kiln_object_is_oriented(object))
-        c = kiln_oriented_collider(scene, object, start_s, end_s);
-    else if (object->kind == KILN_OBJECT_BOX)
+    switch (kind) {
+    case COLLIDER_BOX:
         c = box_collider(scene, object, start_s, end_s);
-    else if (object->kind == KILN_OBJECT_TERRAIN)
+        break;
+    case COLLIDER_SPHERE:
+    case COLLIDER_CYLINDER:
+        c = round_collider(scene, object, start_s, end_s);
+        break;
+    case COLLIDER_TERRAIN:
         c = terrain_collider(grids, grids->of_object[index]);
-    else if (kiln_volumes_needs(object))
-        c = kiln_volumes_collider(&grids->volumes, index, &around->grids[KILN_MAX_WINDS]);
-    else if (object->kind == KILN_OBJECT_MESH)
+        break;
+    case COLLIDER_SDF:
+    case COLLIDER_DEPTH:
         c = mesh_collider(scene, grids, index, start_s, end_s, around->steps_per_s,
                           &around->poses[grids->of_object[index] - grids->wind_count]);
-    else
-        c = round_collider(scene, object, start_s, end_s);
+        break;
+    case COLLIDER_VOLUME:
+        c = kiln_volumes_collider(&grids->volumes, index, &around->grids[KILN_MAX_WINDS]);
+        break;
+    default:
+        c = kiln_oriented_collider(scene, object, start_s, end_s);
+    }
+    c.kind = kind;
     c.restitution = kiln_scene_value(scene, &object->restitution, start_s);
     c.friction = kiln_scene_value(scene, &object->friction, start_s);
     return c;

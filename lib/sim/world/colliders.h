@@ -4,6 +4,9 @@
 
 #include "sim/world/grids.h"
 
+/* Returns the kind of collider, COLLIDER_*, that an object is whenever it collides. */
+uint kiln_sim_collider_kind(const struct kiln_object *object);
+
 /* Fills in the colliders and poses of a step between two clip times; rate: steps a second. Members
  * that do not change during a run are kept. */
 void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln_scene *scene,

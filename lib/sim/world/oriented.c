@@ -173,7 +173,7 @@ static float3 reach_of(const struct kiln_object *object, struct place place, boo
                   around + e.y * exact_abs(place.axis.z));
 }
 
-static uint kind_of(const struct kiln_object *object)
+uint kiln_oriented_kind(const struct kiln_object *object)
 {
     switch (object->kind) {
     case KILN_OBJECT_BOX:
@@ -206,10 +206,10 @@ struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
         .center = with_w(start.center, start.radius),
         .center_end = with_w(end.center, end.radius),
         .axis = with_w(start.axis, 0.0f),
-        .kind = kind_of(object),
         .extent = with_w(start.extent, 0.0f),
         .extent_end = with_w(end.extent, 0.0f),
         .pose = FLOAT4(start.pose[0], start.pose[1], start.pose[2], start.pose[3]),
+        .kind = kiln_oriented_kind(object),
         .spin = spin,
     };
 }

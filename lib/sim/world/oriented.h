@@ -11,6 +11,9 @@
 /* Returns whether an object collides in a frame of its own. */
 bool kiln_object_is_oriented(const struct kiln_object *object);
 
+/* Returns the kind of such a collider, COLLIDER_*. */
+uint kiln_oriented_kind(const struct kiln_object *object);
+
 /* Makes the collider of a step between two clip times; kiln_object_is_oriented(object) holds. */
 struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
                                             const struct kiln_object *object, float start_s,
