@@ -64,59 +64,92 @@ FN float3 collide_box_velocity(S(kiln_collider) c, uint face, float steps_per_s)
     return y;
 }
 
-FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
-                                         uint face, S(collide_answer) answer)
+/* A surface at an impact, for any kind of collider. */
+struct collide_blow {
+    float3 position; /* just outside of the surface */
+    float3 normal;
+    float3 facet;    /* normal of the lattice of a grid, which is not interpolated; else `normal` */
+    float3 ground;   /* velocity of the surface, m/s */
+    float3 turning;  /* rad/s */
+    float outwards;  /* component along the normal of the velocity relative to the surface, m/s */
+    float3 relative; /* that velocity */
+    float3 mirrored; /* that velocity after a mirror */
+};
+
+/* Completes a blow by the velocity before it, for a surface of any direction. */
+FN S(collide_blow) collide_blow_off(S(collide_blow) blow, float3 velocity)
 {
-    EXACT S(collide_state) after = s;
-    EXACT S(collide_round) shape = collide_round_at(c, s.since);
-    EXACT float gap = collide_round_gap(shape);
-    EXACT float3 normal = collide_round_normal(c.kind, shape, face, s.position);
-    after.position = collide_round_put(c.kind, shape, face, s.position, gap);
-    EXACT float3 ground = collide_round_velocity(c, face, normal, AROUND(steps_per_s));
-    EXACT float3 relative = float3_sub(s.velocity, ground);
-    EXACT float3 bounced = collide_bounce_off(answer, relative, normal, false);
-    EXACT float3 still = collide_not_turning();
-    after = collide_leave(answer, after, relative, bounced, normal, ground, still);
-    return after;
+    EXACT S(collide_blow) y = blow;
+    y.relative = float3_sub(velocity, blow.ground);
+    y.outwards = float3_dot(y.relative, blow.normal);
+    EXACT float twice = -2.0f * y.outwards;
+    y.mirrored = float3_add_scaled(y.relative, blow.normal, twice);
+    return y;
 }
 
-FN S(collide_state) collide_oriented_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
-                                            S(collide_answer) answer)
+FN S(collide_blow) collide_box_blow(SIM_PARAM S(collide_state) s, S(kiln_collider) c, uint face)
 {
-    EXACT S(collide_state) after = s;
+    EXACT S(collide_blow) blow;
+    EXACT S(collide_box) box = collide_box_at(c, s.since);
+    uint axis = face >> 1u;
+    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
+    blow.position = collide_put_beside(box, face, s.position);
+    blow.normal = collide_normal_of(face);
+    blow.facet = blow.normal;
+    blow.ground = collide_box_velocity(c, face, AROUND(steps_per_s));
+    blow.turning = collide_not_turning();
+    blow.relative = float3_sub(s.velocity, blow.ground);
+    EXACT float across = collide_component(blow.relative, axis);
+    blow.outwards = across * out_sign;
+    blow.mirrored = collide_with_component(blow.relative, axis, -across);
+    return blow;
+}
+
+FN S(collide_blow) collide_round_blow(SIM_PARAM S(collide_state) s, S(kiln_collider) c, uint face)
+{
+    EXACT S(collide_blow) blow;
+    EXACT S(collide_round) shape = collide_round_at(c, s.since);
+    EXACT float gap = collide_round_gap(shape);
+    blow.normal = collide_round_normal(c.kind, shape, face, s.position);
+    blow.facet = blow.normal;
+    blow.position = collide_round_put(c.kind, shape, face, s.position, gap);
+    blow.ground = collide_round_velocity(c, face, blow.normal, AROUND(steps_per_s));
+    blow.turning = collide_not_turning();
+    blow = collide_blow_off(blow, s.velocity);
+    return blow;
+}
+
+FN S(collide_blow) collide_oriented_blow(SIM_PARAM S(collide_state) s, uint number, uint face,
+                                         float radius)
+{
+    EXACT S(collide_blow) blow;
     EXACT S(collide_contact) contact = collide_oriented_contact(
-        SIM number, answer.radius, s.since, face, s.position, AROUND(steps_per_s), 1.0f);
-    after.position = contact.position;
-    EXACT float3 relative = float3_sub(s.velocity, contact.velocity);
-    EXACT float3 bounced = collide_bounce_off(answer, relative, contact.normal, false);
+        SIM number, radius, s.since, face, s.position, AROUND(steps_per_s), 1.0f);
     EXACT float4 around = AROUND(colliders[number].spin);
     EXACT float rate = around.w * AROUND(steps_per_s);
     EXACT float3 axis = FLOAT3(around.x, around.y, around.z);
-    EXACT float3 turning = float3_scale(axis, rate);
-    after =
-        collide_leave(answer, after, relative, bounced, contact.normal, contact.velocity, turning);
-    return after;
+    blow.position = contact.position;
+    blow.normal = contact.normal;
+    blow.facet = contact.normal;
+    blow.ground = contact.velocity;
+    blow.turning = float3_scale(axis, rate);
+    blow = collide_blow_off(blow, s.velocity);
+    return blow;
 }
 
 #if COLLIDE_HAS_FIELDS
 
-FN S(collide_state) collide_field_impact(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
-                                         uint face, S(collide_answer) answer)
+FN S(collide_blow) collide_field_blow(SIM_PARAM S(collide_state) s, S(kiln_collider) c, uint face)
 {
-    EXACT S(collide_state) after = s;
+    EXACT S(collide_blow) blow;
     EXACT S(collide_ground) ground = collide_field_ground(SIM c, face, s.since, s.position);
-    EXACT float3 relative = float3_sub(s.velocity, ground.velocity);
-    EXACT float3 bounced = collide_bounce_off(answer, relative, ground.normal, false);
-    bounced = collide_clear_of(bounced, ground.facet);
-    after.position = ground.position;
-    EXACT float3 still = collide_not_turning();
-    after = collide_leave(answer, after, relative, bounced, ground.normal, ground.velocity, still);
-    if (COLLIDE_SPINS(answer)) { /* the velocity changes along the interpolated surface */
-        EXACT float3 left = float3_sub(after.velocity, ground.velocity);
-        EXACT float3 clear = collide_clear_of(left, ground.facet);
-        after.velocity = float3_add(ground.velocity, clear);
-    }
-    return after;
+    blow.position = ground.position;
+    blow.normal = ground.normal;
+    blow.facet = ground.facet;
+    blow.ground = ground.velocity;
+    blow.turning = collide_not_turning();
+    blow = collide_blow_off(blow, s.velocity);
+    return blow;
 }
 
 /* Does collide_clamp for colliders from grids. */
@@ -134,35 +167,54 @@ FN S(collide_state) collide_field_clamp(SIM_PARAM S(collide_state) s, S(kiln_col
 
 #endif
 
-/* Returns the state after an impact on a face of a collider. */
+/* Returns the surface at an impact on a face of a collider. */
+FN S(collide_blow) collide_blow_at(SIM_PARAM S(collide_state) s, S(kiln_collider) c, uint number,
+                                   uint face, float radius)
+{
+    EXACT S(collide_blow) blow;
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c)) {
+        blow = collide_field_blow(SIM s, c, face);
+        return blow;
+    }
+#endif
+    if (COLLIDE_IS_ORIENTED(c))
+        blow = collide_oriented_blow(SIM s, number, face, radius);
+    else if (COLLIDE_IS_ROUND(c))
+        blow = collide_round_blow(SIM s, c, face);
+    else
+        blow = collide_box_blow(SIM s, c, face);
+    return blow;
+}
+
+/* Returns the state after an impact on a face of a collider. All kinds of colliders share one
+ * answer, since compilers of GLSL insert each call. */
 FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
                                    S(collide_answer) of_all)
 {
     EXACT S(collide_state) after = s;
     EXACT S(kiln_collider) c = collide_around(SIM number, of_all.radius);
     EXACT S(collide_answer) answer = collide_answer_of(of_all, c);
+    EXACT S(collide_blow) blow = collide_blow_at(SIM s, c, number, face, of_all.radius);
+    after.position = blow.position;
+    EXACT float3 bounced = blow.relative;
+    if (blow.outwards < 0.0f)
+        bounced = collide_scatter(answer, blow.relative, blow.mirrored, blow.normal, blow.outwards,
+                                  false);
 #if COLLIDE_HAS_FIELDS
-    if (COLLIDE_IS_FIELD(c)) {
-        after = collide_field_impact(SIM s, c, face, answer);
-        return after;
+    if (COLLIDE_IS_FIELD(c))
+        bounced = collide_clear_of(bounced, blow.facet);
+#endif
+    after = collide_leave(answer, after, blow.relative, bounced, blow.normal, blow.ground,
+                          blow.turning);
+#if COLLIDE_HAS_FIELDS
+    if (COLLIDE_IS_FIELD(c) && COLLIDE_SPINS(answer)) {
+        /* the velocity changes along the interpolated surface */
+        EXACT float3 left = float3_sub(after.velocity, blow.ground);
+        EXACT float3 clear = collide_clear_of(left, blow.facet);
+        after.velocity = float3_add(blow.ground, clear);
     }
 #endif
-    if (COLLIDE_IS_ORIENTED(c)) {
-        after = collide_oriented_impact(SIM s, number, face, answer);
-        return after;
-    }
-    if (COLLIDE_IS_ROUND(c)) {
-        after = collide_round_impact(SIM s, c, face, answer);
-        return after;
-    }
-    EXACT S(collide_box) box = collide_box_at(c, s.since);
-    after.position = collide_put_beside(box, face, s.position);
-    EXACT float3 ground = collide_box_velocity(c, face, AROUND(steps_per_s));
-    EXACT float3 relative = float3_sub(s.velocity, ground);
-    EXACT float3 bounced = collide_bounce(answer, relative, face, false);
-    EXACT float3 normal = collide_normal_of(face);
-    EXACT float3 still = collide_not_turning();
-    after = collide_leave(answer, after, relative, bounced, normal, ground, still);
     return after;
 }
 
