@@ -49,7 +49,7 @@ static bool add_memory(const struct kiln_bench_run *run, size_t combination, dou
         return false;
     double records = (double)kiln_simulate_slot_bytes(techniques.simulate);
     enum { SLOTS = 1 << 20 }; /* so many that padding is negligible */
-    const uint64_t sorted = kiln_sort_bytes(techniques.sort, techniques.sort_spread > 0, SLOTS);
+    const uint64_t sorted = kiln_sort_bytes(techniques.sort, SLOTS);
     double sorting = (double)sorted / SLOTS;
     return add_value(run, particles, "memory, records", COMBINATIONS[combination].techniques,
                      records, error) &&

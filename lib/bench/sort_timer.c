@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "bench/bitonic_field.h"
 #include "sort/bitonic.h"
-#include "sort/oddeven.h"
 #include "sort/pairs.h"
+#include "sort/papers/oddeven.h"
 #include "sort/radix.h"
 
 struct kiln_sort_timer {

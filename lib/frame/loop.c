@@ -96,11 +96,11 @@ static bool leave_moment(struct kiln_loop *loop, struct kiln_error *error)
     return kiln_simulate_hide_births(loop->simulate, &loop->run.pool, error);
 }
 
-/* Advances to frame `end` without drawing. If the sort keeps an order from frame to frame, the
- * skipped frames update it. */
+/* Advances to frame `end` without drawing. If a stage keeps a history, the skipped frames advance
+ * it. */
 static bool skip_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
 {
-    const bool keeps_history = kiln_stages_keep_history(&loop->stages);
+    const bool keeps_history = loop->stages.history.kind != NULL;
     for (; keeps_history && loop->next_frame < end; loop->next_frame++)
         for (uint32_t moment = 0; moment < kiln_scene_moment_count(loop->scene); moment++) {
             const struct kiln_instant instant =
@@ -324,9 +324,9 @@ struct kiln_timer *kiln_loop_timer(struct kiln_loop *loop)
     return loop->timer;
 }
 
-struct kiln_sort *kiln_loop_spread_sort(struct kiln_loop *loop)
+const struct kiln_history *kiln_loop_history(const struct kiln_loop *loop)
 {
-    return kiln_stages_keep_history(&loop->stages) ? loop->stages.sort : NULL;
+    return &loop->stages.history;
 }
 
 uint64_t kiln_loop_steps(const struct kiln_loop *loop)
@@ -344,6 +344,5 @@ uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop)
     const size_t between =
         kiln_scene_has_instants_between(loop->scene) ? 2 * sizeof(struct kiln_particle) : 0;
     return (uint64_t)slots * (kiln_simulate_slot_bytes(techniques->simulate) + between) +
-           spins * sizeof(struct kiln_spin) +
-           kiln_sort_bytes(techniques->sort, techniques->sort_spread > 0, slots);
+           spins * sizeof(struct kiln_spin) + kiln_sort_bytes(techniques->sort, slots);
 }

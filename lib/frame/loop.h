@@ -6,7 +6,7 @@
 #include "frame/run.h"
 #include "frame/technique.h"
 #include "output/output.h"
-#include "sort/sort.h"
+#include "particles/history.h"
 
 struct kiln_loop;
 struct kiln_timer;
@@ -54,9 +54,9 @@ struct kiln_run *kiln_loop_run(struct kiln_loop *loop);
  * everything that later frames need from earlier frames. */
 void kiln_loop_set_frame(struct kiln_loop *loop, uint32_t frame);
 
-/* Returns the loop's sort if it keeps an order from frame to frame, otherwise NULL. That order is
- * part of the state. */
-struct kiln_sort *kiln_loop_spread_sort(struct kiln_loop *loop);
+/* Returns what a stage keeps from frame to frame; its kind is NULL if none does. It is part of the
+ * state. */
+const struct kiln_history *kiln_loop_history(const struct kiln_loop *loop);
 
 /* Returns the worker threads, for work between frames. */
 struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop);
@@ -68,11 +68,11 @@ struct kiln_timer *kiln_loop_timer(struct kiln_loop *loop);
 uint64_t kiln_loop_steps(const struct kiln_loop *loop);
 
 /* Copies the particles and the position in the clip from another loop of the same scene, which may
- * use other techniques. Does not copy the order that a spread sort keeps. */
+ * use other techniques. Does not copy the history that a stage keeps. */
 bool kiln_loop_copy_state(struct kiln_loop *loop, struct kiln_loop *from, struct kiln_error *error);
 
-/* Simulates up to the start of a frame and draws nothing. Frames in between update the order that a
- * spread sort keeps. */
+/* Simulates up to the start of a frame and draws nothing. Frames in between advance the history
+ * that a stage keeps. */
 bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error);
 
 /* Draws a frame, which must not be earlier than the last frame. hash: also compute the hash of the

@@ -1,6 +1,5 @@
 /* A kiln_run holds all state that a run changes, so that it can be saved and loaded as a whole. The
- * only exception is the order that a spread sort keeps: the sort stage holds it, and
- * kiln_loop_spread_sort returns that stage. */
+ * only exception is the history that a stage may keep, which kiln_loop_history returns. */
 #ifndef KILN_FRAME_RUN_H
 #define KILN_FRAME_RUN_H
 

@@ -24,7 +24,9 @@ static const char *find_paper(const struct kiln_techniques *techniques, const ch
         break;
     }
     *instead = "sort=radix";
-    return techniques->sort == KILN_SORT_ODDEVEN ? "sort=oddeven" : NULL;
+    return techniques->sort == KILN_SORT_ODDEVEN || techniques->sort == KILN_SORT_SPREAD
+               ? "sort=oddeven"
+               : NULL;
 }
 
 static uint32_t most_forces(const struct kiln_scene *scene)

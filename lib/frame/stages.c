@@ -78,11 +78,16 @@ static struct kiln_pool *pool_at(struct kiln_stages *s, struct kiln_pool *before
     return instant.back > 0.0f ? kiln_between_run(s->between, before, pool, instant, error) : pool;
 }
 
-/* Updates the order that the sort keeps, if it keeps one, for the moment's view. */
-static bool advance_sort(struct kiln_stages *s, struct kiln_pool *pool, struct kiln_error *error)
+/* Advances the history of a stage that keeps one by the moment. */
+static bool advance_history(struct kiln_stages *s, struct kiln_pool *pool, struct kiln_error *error)
 {
-    const struct kiln_sort_params params = sort_params(&s->moment.view);
-    return RUN_PASS(s, KILN_PASS_sort, kiln_sort_advance(s->sort, pool, &params, error), error);
+    const struct kiln_history *history = &s->history;
+    if (!history->kind)
+        return true;
+    const struct kiln_sort_params seen = sort_params(&s->moment.view);
+    return RUN_PASS(s, KILN_PASS_sort,
+                    history->kind->advance(history->technique, pool, seen.eye, seen.forward, error),
+                    error);
 }
 
 bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *before,
@@ -91,7 +96,7 @@ bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *befor
 {
     kiln_moment_set_view(&stages->moment, instant);
     pool = pool_at(stages, before, pool, instant, error);
-    return pool && advance_sort(stages, pool, error);
+    return pool && advance_history(stages, pool, error);
 }
 
 static bool sort_particles(struct kiln_stages *s, uint64_t systems, bool by_depth, uint32_t *count,
@@ -243,14 +248,14 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct 
     s->instant = instant;
     if (shared) {
         kiln_moment_set_view(&s->moment, instant);
-        return advance_sort(s, s->moment.pool, error);
+        return advance_history(s, s->moment.pool, error);
     }
     if (!begin_pass(s, KILN_PASS_lighting, error))
         return false;
     kiln_moment_set_time(&s->moment, instant);
     end_pass(s, true);
     pool = pool_at(s, before, pool, instant, error);
-    return pool && advance_sort(s, pool, error) &&
+    return pool && advance_history(s, pool, error) &&
            RUN_PASS(s, KILN_PASS_lighting,
                     kiln_moment_set_particles(&s->moment, pool, s->on_host, error) &&
                         kiln_lighting_run(s->lighting, &s->moment, &s->light, error),
@@ -283,11 +288,6 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
         return false;
     *drawn += solids;
     return !s->shutter || RUN_PASS(s, KILN_PASS_composite, add_moment(s, moment, error), error);
-}
-
-bool kiln_stages_keep_history(const struct kiln_stages *stages)
-{
-    return kiln_sort_keeps_history(stages->sort);
 }
 
 bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error)

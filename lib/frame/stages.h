@@ -30,6 +30,7 @@ struct kiln_stages {
     struct kiln_atlas atlas;
 
     struct kiln_sort *sort;
+    struct kiln_history history;  /* of the sort, the one stage that may keep a history */
     struct kiln_between *between; /* NULL if all moments are at the ends of steps */
     struct kiln_moment moment;    /* the moment that is being drawn */
     struct kiln_instant instant;  /* of the moment */
@@ -82,12 +83,11 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
                       struct kiln_instant instant, uint32_t moment, uint32_t *drawn,
                       struct kiln_error *error);
 
-/* Updates the kept order for a moment that is not drawn, as kiln_stages_draw does. It must be
- * called if kiln_stages_keep_history returns true. */
+/* Advances the history for a moment that is not drawn, as kiln_stages_draw does. It must be called
+ * if a stage keeps a history. */
 bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *before,
                              struct kiln_pool *pool, struct kiln_instant instant,
                              struct kiln_error *error);
-bool kiln_stages_keep_history(const struct kiln_stages *stages);
 
 /* Runs bloom and composite, which make the picture of a frame from the drawn moments. */
 bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error);

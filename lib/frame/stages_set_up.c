@@ -131,9 +131,11 @@ static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *tec
 static bool init_sort(struct kiln_stages *s, const struct kiln_techniques *techniques,
                       struct kiln_error *error)
 {
-    s->sort = techniques->sort_spread > 0
-                  ? kiln_sort_create_spread(s->device, techniques->sort_spread, s->threads, error)
-                  : kiln_sort_create(s->device, techniques->sort, s->threads, error);
+    const struct kiln_sort_setup setup = {
+        .device = s->device, .threads = s->threads, .frames = techniques->sort_number};
+    s->sort = kiln_sort_create(techniques->sort, &setup, error);
+    if (s->sort)
+        s->history = kiln_sort_history(s->sort);
     return s->sort != NULL;
 }
 

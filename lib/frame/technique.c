@@ -22,9 +22,6 @@ static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
 
 #define AUTO "auto"
 
-/* The only sort technique that takes a number: the frames that the sort is spread over. */
-#define SPREADABLE "oddeven"
-
 struct row {
     enum stage stage;
     const char *name;
@@ -44,8 +41,8 @@ static const struct row ROWS[] = {
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
     {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
     {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
-    {SORT, SPREADABLE, KILN_SORT_ODDEVEN,
-     "odd-even merge sort, compute; " SPREADABLE ":N spreads it over N frames"},
+    {SORT, "oddeven", KILN_SORT_ODDEVEN,
+     "odd-even merge sort, compute; oddeven:N spreads it over N frames"},
     {BACKDROP, "cpu", KILN_BACKDROP_CPU, "host threads, rays in vectors"},
     {BACKDROP, "gl", KILN_BACKDROP_GL, "fragment shaders"},
     {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
@@ -62,6 +59,18 @@ static const struct row ROWS[] = {
 };
 
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
+
+/* The techniques that take a number, NAME:N, where N is the `number`, 1 to `most`, `of`. */
+static const struct numbered_row {
+    enum stage stage;
+    const char *name;
+    int value; /* value of the stage's enum of techniques where a number is given */
+    uint32_t most;
+    const char *number, *of;
+} NUMBERED_ROWS[] = {
+    {SORT, "oddeven", KILN_SORT_SPREAD, KILN_SORT_MAX_SPREAD, "number of frames",
+     "that the sort is spread over"},
+};
 
 /* The classes of devices that `auto` distinguishes. */
 enum device_class { SOFTWARE, GPU, INEXACT_GPU, CLASS_COUNT };
@@ -113,7 +122,7 @@ static const struct choice {
 struct choices {
     const struct row *rows[STAGE_COUNT];
     const char *reason[STAGE_COUNT];
-    uint32_t sort_spread;
+    uint32_t numbers[STAGE_COUNT]; /* N of NAME:N; 0: none was given */
 };
 
 static const struct row *find_row(enum stage stage, const char *name)
@@ -121,6 +130,15 @@ static const struct row *find_row(enum stage stage, const char *name)
     for (size_t i = 0; i < ROW_COUNT; i++) {
         if (ROWS[i].stage == stage && strcmp(ROWS[i].name, name) == 0)
             return &ROWS[i];
+    }
+    return NULL;
+}
+
+static const struct numbered_row *find_numbered_row(enum stage stage, const char *name)
+{
+    for (size_t i = 0; i < sizeof NUMBERED_ROWS / sizeof *NUMBERED_ROWS; i++) {
+        if (NUMBERED_ROWS[i].stage == stage && strcmp(NUMBERED_ROWS[i].name, name) == 0)
+            return &NUMBERED_ROWS[i];
     }
     return NULL;
 }
@@ -150,23 +168,25 @@ static bool unknown_name(const char *label, const char *found, const char *const
                           nearest ? "'?)" : "", list);
 }
 
-/* Removes ":N" from "oddeven:N" and returns N in *spread. */
-static bool take_spread(char *name, uint32_t *spread, struct kiln_error *error)
+/* Removes ":N" from "NAME:N" and returns N in *number, if the technique takes a number. */
+static bool take_number(enum stage stage, char *name, uint32_t *number, struct kiln_error *error)
 {
-    *spread = 0;
+    *number = 0;
     char *colon = strchr(name, ':');
-    if (!colon || (size_t)(colon - name) != strlen(SPREADABLE) ||
-        strncmp(name, SPREADABLE, strlen(SPREADABLE)) != 0)
+    if (!colon)
         return true;
-    uint64_t frames = 0;
-    if (!kiln_text_to_uint64(colon + 1, &frames) || frames < 1 || frames > KILN_SORT_MAX_SPREAD)
-        return kiln_error_set(
-            error, KILN_USAGE,
-            "technique: sort=%s: expected " SPREADABLE
-            ":N, where N is the number of frames, 1 to %d, that the sort is spread over",
-            name, KILN_SORT_MAX_SPREAD);
-    *spread = (uint32_t)frames;
     *colon = '\0';
+    const struct numbered_row *row = find_numbered_row(stage, name);
+    if (!row) {
+        *colon = ':';
+        return true;
+    }
+    uint64_t value = 0;
+    if (!kiln_text_to_uint64(colon + 1, &value) || value < 1 || value > row->most)
+        return kiln_error_set(
+            error, KILN_USAGE, "technique: %s=%s:%s: expected %s:N, where N is the %s, 1 to %u, %s",
+            STAGE_NAMES[stage], name, colon + 1, name, row->number, row->most, row->of);
+    *number = (uint32_t)value;
     return true;
 }
 
@@ -187,14 +207,13 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
 
     char name[64];
     snprintf(name, sizeof name, "%s", equals + 1);
-    uint32_t spread = 0;
-    if (stage == SORT && !take_spread(name, &spread, error))
+    uint32_t number = 0;
+    if (!take_number((enum stage)stage, name, &number, error))
         return false;
     bool is_auto = strcmp(name, AUTO) == 0;
     const struct row *row = find_row((enum stage)stage, name);
     if (is_auto || row) {
-        if (stage == SORT)
-            choices->sort_spread = spread;
+        choices->numbers[stage] = number;
         choices->rows[stage] = is_auto ? automatic->rows[stage] : row;
         choices->reason[stage] = is_auto ? automatic->reason[stage] : NULL;
         return true;
@@ -220,6 +239,13 @@ static const struct row *find_gl(const struct choices *choices)
             return choices->rows[stage];
     }
     return NULL;
+}
+
+/* Returns the value of a stage's enum of techniques for its chosen row and number. */
+static int value_of(const struct choices *choices, enum stage stage)
+{
+    const struct row *row = choices->rows[stage];
+    return choices->numbers[stage] > 0 ? find_numbered_row(stage, row->name)->value : row->value;
 }
 
 static bool refuse_gl(const struct row *row, const char *device, struct kiln_error *error)
@@ -254,26 +280,31 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
     }
     if (!device->gl && find_gl(&choices))
         return refuse_gl(find_gl(&choices), device->name, error);
-    if (choices.rows[SIMULATE]->value != KILN_SIMULATE_CPU && !device->exact)
+    if (value_of(&choices, SIMULATE) != KILN_SIMULATE_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s computes inexactly and cannot simulate; use simulate=cpu",
                               device->name);
-    if (choices.rows[SORT]->value != KILN_SORT_CPU && !device->exact)
+    if (value_of(&choices, SORT) != KILN_SORT_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
                               "%s computes inexactly and cannot sort; use sort=cpu", device->name);
     *techniques = (struct kiln_techniques){
-        .simulate = (enum kiln_simulate_technique)choices.rows[SIMULATE]->value,
-        .sort = (enum kiln_sort_technique)choices.rows[SORT]->value,
-        .sort_spread = choices.sort_spread,
-        .backdrop = (enum kiln_backdrop_technique)choices.rows[BACKDROP]->value,
-        .raster = (enum kiln_raster_technique)choices.rows[RASTER]->value,
-        .bloom = (enum kiln_bloom_technique)choices.rows[BLOOM]->value,
-        .composite = (enum kiln_composite_technique)choices.rows[COMPOSITE]->value,
+        .simulate = (enum kiln_simulate_technique)value_of(&choices, SIMULATE),
+        .sort = (enum kiln_sort_technique)value_of(&choices, SORT),
+        .sort_number = choices.numbers[SORT],
+        .backdrop = (enum kiln_backdrop_technique)value_of(&choices, BACKDROP),
+        .raster = (enum kiln_raster_technique)value_of(&choices, RASTER),
+        .bloom = (enum kiln_bloom_technique)value_of(&choices, BLOOM),
+        .composite = (enum kiln_composite_technique)value_of(&choices, COMPOSITE),
     };
     for (int stage = 0; stage < STAGE_COUNT; stage++)
         techniques->choices[stage] = (struct kiln_technique_choice){
             STAGE_NAMES[stage], choices.rows[stage]->name, choices.reason[stage]};
     return true;
+}
+
+uint32_t kiln_techniques_history(const struct kiln_techniques *techniques)
+{
+    return kiln_sort_keeps_history(techniques->sort) ? techniques->sort_number : 0;
 }
 
 struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
@@ -336,8 +367,8 @@ void kiln_technique_describe(const struct kiln_techniques *techniques, size_t st
                              size_t size)
 {
     const struct kiln_technique_choice *choice = &techniques->choices[stage];
-    if (stage == SORT && techniques->sort_spread > 0)
-        snprintf(out, size, "%s=%s:%u", choice->stage, choice->name, techniques->sort_spread);
+    if (stage == SORT && techniques->sort_number > 0)
+        snprintf(out, size, "%s=%s:%u", choice->stage, choice->name, techniques->sort_number);
     else
         snprintf(out, size, "%s=%s", choice->stage, choice->name);
 }

@@ -17,7 +17,7 @@ _Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold a
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
-    uint32_t sort_spread; /* frames that `oddeven` spreads a sort over; 0: each frame sorts fully */
+    uint32_t sort_number; /* N of "sort=NAME:N"; 0: the technique takes no number */
     enum kiln_backdrop_technique backdrop;
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
@@ -26,12 +26,16 @@ struct kiln_techniques {
 };
 
 /* Chooses the techniques: the device's defaults, overridden by "stage=name" flags. The last flag
- * for a stage wins. "stage=auto" selects the default; "sort=oddeven:N" spreads the sort over N
- * frames. Fails with KILN_USAGE for an unknown name, and lists the known names, and with
+ * for a stage wins. "stage=auto" selects the default. A technique may take a number,
+ * "stage=name:N". Fails with KILN_USAGE for an unknown name, and lists the known names, and with
  * KILN_NO_DEVICE if an inexact device would have to simulate or sort. */
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
+
+/* Returns 0 if no technique keeps a history (particles/history.h), or otherwise a number that tells
+ * this history from those of other techniques. Saved states hash it, so it must not change. */
+uint32_t kiln_techniques_history(const struct kiln_techniques *techniques);
 
 /* Returns parameters for opening the device of pictures that must be the same everywhere: the
  * wanted device, or else KILN_DEVICE_CPU if the techniques in `flags` run without GL, or else the

@@ -1,6 +1,6 @@
 /* Writes and reads saved states. The file has a head of fixed order, which ends with its CRC-32,
- * then packed tables of the records, the spins, the painted canvases and the order of a spread
- * sort. Integers are little-endian. */
+ * then packed tables of the records, the spins, the painted canvases and the history of a stage.
+ * Integers are little-endian. */
 #include "job/state.h"
 
 #include <stdlib.h>
@@ -27,7 +27,7 @@ enum { RECORD_RISING = 1 << 3 | 1 << 7 };
 /* The contents of the head. */
 struct head {
     struct kiln_state_info info;
-    uint32_t next_part;
+    uint32_t of_whole; /* of the history */
     uint32_t system_count, canvas_count;
     struct head_system {
         uint32_t capacity, spins;
@@ -79,14 +79,14 @@ static void pass_head(struct cursor *c, struct head *head)
 {
     struct kiln_state_info *info = &head->info;
     pass_bytes(c, (uint8_t *)info->motion, HASH_DIGITS);
-    pass_bytes(c, (uint8_t *)info->order, HASH_DIGITS);
+    pass_bytes(c, (uint8_t *)info->history, HASH_DIGITS);
     pass_bytes(c, (uint8_t *)info->kiln, VERSION_SIZE);
     pass_word(c, &info->step);
     pass_word(c, &info->frame);
     pass_word(c, &info->hash.lane[0]);
     pass_word(c, &info->hash.lane[1]);
     pass_long(c, &info->alive, 8);
-    pass_word(c, &head->next_part);
+    pass_word(c, &head->of_whole);
     pass_word(c, &head->system_count);
     pass_word(c, &head->canvas_count);
     c->failed |= head->system_count > KILN_MAX_SYSTEMS || head->canvas_count > KILN_MAX_MESHES;
@@ -109,7 +109,7 @@ static struct head head_of(const struct kiln_state *state)
 {
     const struct kiln_pool *pool = state->pool;
     struct head head = {.info = state->info,
-                        .next_part = state->next_part,
+                        .of_whole = state->history.of_whole,
                         .system_count = pool->system_count,
                         .canvas_count = pool->canvas_count};
     for (uint32_t i = 0; i < pool->system_count; i++) {
@@ -203,12 +203,12 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
         !kiln_pack_read_bytes(file, c.bytes + c.size, size - c.size, path, error))
         return false;
     c.size = size;
-    *head = (struct head){.next_part = 0};
+    *head = (struct head){.of_whole = 0};
     pass_head(&c, head);
     const size_t end = c.at;
     pass_word(&c, &crc);
     if (c.failed || c.at != size || crc != (uint32_t)crc32_z(0, c.bytes, end) ||
-        !is_hash(head->info.motion) || (head->info.order[0] && !is_hash(head->info.order)) ||
+        !is_hash(head->info.motion) || (head->info.history[0] && !is_hash(head->info.history)) ||
         !is_plausible(head))
         return refuse(path, "the file is damaged", error);
     for (uint32_t i = 0; i < head->system_count; i++)
@@ -252,7 +252,7 @@ static bool check_table(const struct visitor *v, const struct kiln_table *table,
 /* Points to the tables of a state in memory; all pointers are NULL where the tables are only
  * checked. */
 struct places {
-    uint32_t *records, *spins, *slots;
+    uint32_t *records, *spins, *history;
     uint32_t *texels[KILN_MAX_MESHES], *waiting[KILN_MAX_MESHES];
 };
 
@@ -276,8 +276,8 @@ static bool visit_tables(const struct visitor *v, const struct head *head,
         if (!v->visit(v, &texels, error) || !v->visit(v, &waiting, error))
             return false;
     }
-    const struct kiln_table order = {places->slots, slots, 1, 0};
-    return !head->info.order[0] || v->visit(v, &order, error);
+    const struct kiln_table history = {places->history, slots, 1, 0};
+    return !head->info.history[0] || v->visit(v, &history, error);
 }
 
 /* Finds the tables of a pool in memory; `access` is the access to its buffers. */
@@ -302,7 +302,7 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
                       struct kiln_threads *threads, struct kiln_error *error)
 {
     struct head head = head_of(state);
-    struct places places = {.slots = state->slots};
+    struct places places = {.history = state->history.of_slots};
     struct kiln_temporary file = {0};
     snprintf(head.info.kiln, sizeof head.info.kiln, "%s", KILN_VERSION);
     if (!find_places(state->pool, KILN_READ, &places, error) ||
@@ -371,17 +371,17 @@ static bool read_state(struct kiln_state *state, const struct visitor *visitor,
                        struct kiln_error *error)
 {
     struct head head;
-    struct places places = {.slots = state->slots};
+    struct places places = {.history = state->history.of_slots};
     if (!read_head(visitor->file, visitor->path, &head, error) ||
         !shape_pool(state->pool, &head, visitor->path, error) ||
         !find_places(state->pool, KILN_OVERWRITE, &places, error))
         return false;
     state->info = head.info;
-    state->next_part = head.next_part;
-    if (!state->slots) /* the order is the last table; without slots it is not read */
-        head.info.order[0] = '\0';
-    else if (!head.info.order[0])
-        return refuse(visitor->path, "the state has no order of a spread sort", error);
+    state->history.of_whole = head.of_whole;
+    if (!places.history) /* the history is the last table, and is not read if it is not wanted */
+        head.info.history[0] = '\0';
+    else if (!head.info.history[0])
+        return refuse(visitor->path, "the state has no history of a stage", error);
     return visit_tables(visitor, &head, &places, error);
 }
 

@@ -4,16 +4,16 @@
 #define KILN_JOB_STATE_H
 
 #include "base/thread.h"
-#include "particles/pool.h"
+#include "particles/history.h"
 
 /* Identifies a state. scene/motion.h makes the hashes. */
 struct kiln_state_info {
     char motion[65];
-    /* hash of the order that a spread sort keeps, with its technique; "": no order is kept */
-    char order[65];
+    /* hash of what decides the history that a stage keeps, with its technique; "": none is kept */
+    char history[65];
     char kiln[17];  /* the version of kiln that saved the state */
     uint32_t step;  /* the step after which the state was saved */
-    uint32_t frame; /* the number of the next frame, if an order is saved */
+    uint32_t frame; /* the number of the next frame, if a history is saved */
     struct kiln_state_hash hash;
     uint64_t alive; /* number of living particles */
     /* set when a state is read: the systems whose particles spin */
@@ -26,9 +26,7 @@ struct kiln_state_info {
 struct kiln_state {
     struct kiln_state_info info;
     struct kiln_pool *pool;
-    /* the order of a spread sort, all slots of the pool; NULL: none is saved or wanted */
-    uint32_t *slots;
-    uint32_t next_part; /* the part of the spread sort that runs next */
+    struct kiln_history_words history; /* of_slots: NULL if none is saved or wanted */
 };
 
 /* Writes a state to a temporary file and renames it to its path. An existing file is replaced only
@@ -40,9 +38,9 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
  * the file is no state, has another format, is cut off or has a changed byte. */
 bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kiln_error *error);
 
-/* Reads a state into a pool that was initialised for the same scene, and the order into
- * state->slots if that is not NULL. Fills state->info. After a failure the pool must not be
- * used. */
+/* Reads a state into a pool that was initialised for the same scene, and the history into
+ * state->history if its of_slots is not NULL. Fills state->info. After a failure the pool must not
+ * be used. */
 bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_threads *threads,
                      struct kiln_error *error);
 

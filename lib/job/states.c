@@ -25,29 +25,30 @@ struct kiln_states {
     const struct kiln_scene *scene;
     struct kiln_log log;
     char motion[65];
-    char order[65];  /* hash of the order of a spread sort; "": no order is kept */
-    uint32_t *steps; /* the steps of the files, ascending */
+    char history[65]; /* hash of what decides the history of a stage; "": none keeps one */
+    uint32_t *steps;  /* the steps of the files, ascending */
     size_t count;
     size_t others; /* number of files of other motions */
 };
 
 /* ---- listing --------------------------------------------------------------------------------- */
 
-/* Computes the hashes of the motion and of the kept order. The order's hash covers the technique
- * that keeps it. */
+/* Computes the hashes of the motion and of the history that a stage keeps. A history depends on
+ * what the camera sees in each frame, and on the technique that keeps it. */
 static bool take_hashes(struct kiln_states *states, const struct kiln_techniques *techniques,
                         struct kiln_error *error)
 {
     char of_scene[65];
     if (!kiln_scene_part_hash(states->scene, KILN_PART_MOTION, states->motion, error))
         return false;
-    if (techniques->sort_spread == 0)
+    const uint32_t technique = kiln_techniques_history(techniques);
+    if (technique == 0)
         return true;
-    if (!kiln_scene_part_hash(states->scene, KILN_PART_ORDER, of_scene, error))
+    if (!kiln_scene_part_hash(states->scene, KILN_PART_VIEW, of_scene, error))
         return false;
     char text[128];
-    const int length = snprintf(text, sizeof text, "%s %u", of_scene, techniques->sort_spread);
-    kiln_hash_sha256(text, (size_t)length, states->order);
+    const int length = snprintf(text, sizeof text, "%s %u", of_scene, technique);
+    kiln_hash_sha256(text, (size_t)length, states->history);
     return true;
 }
 
@@ -198,9 +199,9 @@ static bool check(const struct kiln_states *states, uint32_t step, struct kiln_s
     if (info->step != step)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the file holds the state of step %u",
                               path, info->step);
-    if (states->order[0] && strcmp(info->order, states->order) != 0)
+    if (states->history[0] && strcmp(info->history, states->history) != 0)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the state lacks the order that this spread sort keeps; bake "
+                              "%s: the state lacks the history that these techniques keep; bake "
                               "with the same --technique, camera and rates",
                               path);
     return true;
@@ -212,18 +213,15 @@ bool kiln_states_check(const struct kiln_states *states, uint32_t step, struct k
     return check(states, step, &info, error);
 }
 
-/* Allocates the slots of the order that a loop keeps. NULL when it keeps none, or with an error
- * when memory is short. */
-static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *loop,
-                            struct kiln_error *error)
+/* Allocates the words of the history that a loop keeps. They are NULL if it keeps none. */
+static bool make_words(const struct kiln_states *states, struct kiln_loop *loop,
+                       struct kiln_history_words *words, struct kiln_error *error)
 {
-    if (!states->order[0])
-        return NULL;
+    if (!states->history[0])
+        return true;
     const uint32_t count = kiln_loop_run(loop)->pool.slot_count;
-    uint32_t *slots = calloc((size_t)count + 1, sizeof *slots);
-    if (!slots)
-        kiln_error_no_memory(error, "a saved order");
-    return slots;
+    words->of_slots = calloc((size_t)count + 1, sizeof *words->of_slots);
+    return words->of_slots || kiln_error_no_memory(error, "a saved history");
 }
 
 static bool verify_hash(struct kiln_loop *loop, const struct kiln_state_info *info,
@@ -247,13 +245,14 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
 {
     char path[KILN_PATH_SIZE];
     struct kiln_run *run = kiln_loop_run(loop);
-    struct kiln_state state = {.pool = &run->pool, .slots = make_slots(states, loop, error)};
-    bool ok = (state.slots || !states->order[0]) && kiln_states_path(states, step, path, error) &&
+    const struct kiln_history *history = kiln_loop_history(loop);
+    struct kiln_state state = {.pool = &run->pool};
+    bool ok = make_words(states, loop, &state.history, error) &&
+              kiln_states_path(states, step, path, error) &&
               kiln_state_read(&state, path, kiln_loop_threads(loop), error);
-    if (ok && state.slots)
-        ok = kiln_sort_restore(kiln_loop_spread_sort(loop), &run->pool, state.slots,
-                               state.next_part, error);
-    free(state.slots);
+    if (ok && state.history.of_slots)
+        ok = history->kind->restore(history->technique, &run->pool, &state.history, error);
+    free(state.history.of_slots);
     if (!ok)
         return false;
     run->step = step;
@@ -296,18 +295,19 @@ bool kiln_states_save(const struct kiln_states *states, struct kiln_loop *loop, 
 {
     char path[KILN_PATH_SIZE];
     struct kiln_run *run = kiln_loop_run(loop);
-    struct kiln_state state = {.pool = &run->pool, .slots = make_slots(states, loop, error)};
+    const struct kiln_history *history = kiln_loop_history(loop);
+    struct kiln_state state = {.pool = &run->pool};
     memcpy(state.info.motion, states->motion, sizeof state.info.motion);
-    memcpy(state.info.order, states->order, sizeof state.info.order);
+    memcpy(state.info.history, states->history, sizeof state.info.history);
     state.info.step = run->step;
     state.info.frame = frame;
-    bool ok = (state.slots || !states->order[0]) &&
+    bool ok = make_words(states, loop, &state.history, error) &&
               kiln_states_path(states, run->step, path, error) &&
               kiln_loop_hash(loop, &state.info.hash, &state.info.alive, error) &&
-              (!state.slots || kiln_sort_save(kiln_loop_spread_sort(loop), &run->pool, state.slots,
-                                              &state.next_part, error)) &&
+              (!state.history.of_slots ||
+               history->kind->save(history->technique, &run->pool, &state.history, error)) &&
               kiln_state_write(&state, path, overwrite, kiln_loop_threads(loop), error);
-    free(state.slots);
+    free(state.history.of_slots);
     *alive = state.info.alive;
     return ok;
 }

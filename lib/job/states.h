@@ -6,8 +6,8 @@
 
 struct kiln_states;
 
-/* Lists the states in a folder that are of the scene's motion. Where a sort is spread over frames,
- * a state also has to have its order. Folder and scene are borrowed. NULL with KILN_IO when the
+/* Lists the states in a folder that are of the scene's motion. Where a stage keeps a history, a
+ * state also has to have it. Folder and scene are borrowed. NULL with KILN_IO when the
  * folder cannot be read, KILN_INVALID_INPUT when a file that the scene names cannot be read, or
  * KILN_DEVICE_FAILED. */
 struct kiln_states *kiln_states_open(const char *folder, const struct kiln_scene *scene,

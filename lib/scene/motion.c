@@ -1,7 +1,7 @@
 /* This file hashes a part of a scene: the options that decide the motion of its particles, or those
- * that decide the order that a spread sort keeps (scene/parts.h). job/states.c and job/plan.c
- * compare the hashes, since a saved state fits every scene that moves particles alike, however they
- * look.
+ * that decide where the camera sees them in each moment (scene/parts.h). job/states.c and
+ * job/plan.c compare the hashes, since a saved state fits every scene that moves particles alike,
+ * however they look.
  *
  * The text that is hashed consists of the part's options, printed as a scene, KILN_STATE_VERSION,
  * the capacity of each system, and the hashes of wind files and of meshes and terrain that

@@ -4,13 +4,13 @@
 #define FILLS struct kiln_camera
 
 TABLE(shutter) = {
-    INTEGER(ORDER, "samples", shutter_samples, 1, 256, "1",
+    INTEGER(VIEW, "samples", shutter_samples, 1, 256, "1",
             "Number of moments whose mean is a frame. 1 gives a sharp picture. A moment that lies "
             "within a simulation step is drawn between the states before and after that step."),
-    {ROW(ORDER, "angle", number, shutter_angle, "180 deg",
+    {ROW(VIEW, "angle", number, shutter_angle, "180 deg",
          "Shutter angle: 360 deg keeps the shutter open for the whole time of a frame."),
      LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
-    {ROW(ORDER, "phase", number, shutter_phase, "0 deg",
+    {ROW(VIEW, "phase", number, shutter_phase, "0 deg",
          "Part of a frame's time, of 360 deg, after which the first moment lies: of a sharp "
          "picture, its only one. Clips of several phases are the frames of a slow motion of the "
          "same simulation."),
@@ -19,9 +19,9 @@ TABLE(shutter) = {
 };
 
 TABLE(camera) = {
-    VECTOR(ORDER, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]",
+    VECTOR(VIEW, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]",
            "Position of the eye."),
-    VECTOR(ORDER, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(VIEW, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
            "Point that the camera looks at."),
     VALUE(LOOK, "fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
           "Vertical field of view."),
@@ -29,15 +29,15 @@ TABLE(camera) = {
           "Angle by which the camera is turned about its line of sight."),
     VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
           "Distance of the near plane; nothing nearer than this is drawn."),
-    VALUE(ORDER, "aperture", aperture, KILN_METRES, 0, 10, TIME, "0 m",
+    VALUE(VIEW, "aperture", aperture, KILN_METRES, 0, 10, TIME, "0 m",
           "Diameter of the lens, which blurs what is out of focus: a point at distance d is a disc "
           "of diameter aperture * |d - focus| / d in the plane of focus. 0 m is a pinhole, which "
           "blurs nothing. It takes output.samples or camera.shutter.samples."),
-    {ROW(ORDER, "focus", value, focus, "target",
+    {ROW(VIEW, "focus", value, focus, "target",
          "Distance along the line of sight at which the picture is sharp. target is the distance "
          "of the point that the camera looks at."),
      LIMITS(KILN_METRES, 0.001, 1000000), .clocks = TIME, .special_word = "target"},
-    GROUP(ORDER, "shutter", shutter, "Motion blur: a frame is the mean of several moments."),
+    GROUP(VIEW, "shutter", shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };
 
@@ -47,11 +47,11 @@ TABLE(camera) = {
 TABLE(output) = {
     {ROW(LOOK, "size", pair, size, "[1280, 720]", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, KILN_MIN_EDGE, KILN_MAX_EDGE)},
-    INTEGER(ORDER, "samples", pixel_samples, 1, 256, "1",
+    INTEGER(VIEW, "samples", pixel_samples, 1, 256, "1",
             "Number of places in each pixel whose mean is its colour, by a filter that reaches a "
             "pixel beyond its middle: 4 or 16 for a still with smooth edges. A frame is drawn once "
             "for each of them; moments of the shutter count as such."),
-    {ROW(ORDER, "fps", rational, fps, "30",
+    {ROW(VIEW, "fps", rational, fps, "30",
          "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
      LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},
     INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Number of frames in the clip."),
@@ -90,9 +90,9 @@ PUBLIC_TABLE(kiln_options_root) = {
     INTEGER(LOOK, "kiln", format_version, 1, 1, NULL, "Version of the scene format."),
     INTEGER(MOTION, "seed", seed, 0, UINT32_MAX, "0",
             "Another seed gives another run of the same scene."),
-    GROUP(ORDER, "output", output, "The clip."),
+    GROUP(VIEW, "output", output, "The clip."),
     GROUP(MOTION, "simulation", simulation, "The clock of the simulation."),
-    GROUP_AT(ORDER, "camera", camera, camera, "The camera that takes the pictures."),
+    GROUP_AT(VIEW, "camera", camera, camera, "The camera that takes the pictures."),
     GROUP_AT(MOTION, "backdrop", backdrop, kiln_options_backdrop,
              "Sky, sun, floor, objects and lights around the particles."),
     MAP(MOTION, "systems", systems, kiln_options_system, system_count, "{}",

@@ -1,18 +1,18 @@
-/* This file says of an option in a scene file what it decides: how particles move, the order that a
- * spread sort keeps, or only how the picture looks. Each row of the option tables
- * (scene/options*.c) names one of these functions. The printer calls it for each row while
- * kiln_scene_part_hash prints one part of a scene to hash it. kiln_scene_part_hash also asks for
- * each object whether the content of its file belongs to the hash.
+/* This file says of an option in a scene file what it decides: how particles move, at which
+ * moments and from where the camera sees them, or only how the picture looks. Each row of the
+ * option tables (scene/options*.c) names one of these functions. The printer calls it for each row
+ * while kiln_scene_part_hash prints one part of a scene to hash it. kiln_scene_part_hash also asks
+ * for each object whether the content of its file belongs to the hash.
  *
  * A saved state carries these hashes. A scene takes up only states of its own motion hash and, if
- * it keeps an order, of its own order hash. So a row that can change a particle's state must return
- * BOTH; otherwise a scene takes up states of another motion. A row that returns BOTH without need
- * makes states useless that would have served. tests/unit/test_motion.c changes every row and
- * checks this. */
+ * a stage keeps a history of what the camera has seen, of its own view hash. So a row that can
+ * change a particle's state must return BOTH; otherwise a scene takes up states of another motion.
+ * A row that returns BOTH without need makes states useless that would have served.
+ * tests/unit/test_motion.c changes every row and checks this. */
 #include "scene/parts.h"
 
-/* A row that decides the motion also decides the order, so no row belongs to the motion alone. */
-enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_ORDER };
+/* A row that decides the motion also decides the view, so no row belongs to the motion alone. */
+enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_VIEW };
 
 unsigned kiln_row_look(const void *scene, const void *base)
 {
@@ -21,11 +21,11 @@ unsigned kiln_row_look(const void *scene, const void *base)
     return NEITHER;
 }
 
-unsigned kiln_row_order(const void *scene, const void *base)
+unsigned kiln_row_view(const void *scene, const void *base)
 {
     (void)scene;
     (void)base;
-    return KILN_PART_ORDER;
+    return KILN_PART_VIEW;
 }
 
 unsigned kiln_row_motion(const void *scene, const void *base)

@@ -7,12 +7,12 @@
 
 enum kiln_scene_part {
     KILN_PART_MOTION = 1, /* options that decide the state of the particles */
-    KILN_PART_ORDER = 2,  /* options that decide the order that a spread sort keeps */
+    KILN_PART_VIEW = 2,   /* options that decide where the camera sees particles in each moment */
 };
 
 /* Functions for `parts` of struct kiln_option. */
 unsigned kiln_row_look(const void *scene, const void *base);
-unsigned kiln_row_order(const void *scene, const void *base);
+unsigned kiln_row_view(const void *scene, const void *base);
 unsigned kiln_row_motion(const void *scene, const void *base);
 
 /* Return the bits of all parts under a condition, and otherwise 0; base is a struct kiln_look,
@@ -24,7 +24,7 @@ unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
 #define LOOK                     kiln_row_look
-#define ORDER                    kiln_row_order
+#define VIEW                     kiln_row_view
 #define MOTION                   kiln_row_motion
 #define IF_CONTACTS_ARE_AS_DRAWN kiln_row_if_contacts_are_as_drawn
 #define IF_IT_PAINTS             kiln_row_if_it_paints

@@ -5,7 +5,7 @@
  *   MOTION  the key changes how particles move, so states that were saved with another value of it
  *           are not used; unit.motion checks that it does
  *   LOOK    the key changes pictures alone
- *   ORDER   the key changes the order of drawing that a sort over several frames keeps
+ *   VIEW    the key changes where the camera sees particles, or at which moments
  * A row says how its number may vary (option/rows.h):
  *   TIME    it is a constant or a curve over the time of the clip
  *   BOTH    it may also be a curve over the life of a particle

@@ -102,3 +102,23 @@ struct kiln_network *kiln_bitonic_network(struct kiln_bitonic *bitonic)
 {
     return &bitonic->network;
 }
+
+static void *create(const struct kiln_sort_setup *setup, struct kiln_error *error)
+{
+    return kiln_bitonic_create(setup->device, error);
+}
+
+static void destroy(void *technique)
+{
+    struct kiln_bitonic *bitonic = technique;
+    kiln_bitonic_destroy(&bitonic);
+}
+
+static bool run(void *technique, struct kiln_pool *pool, const struct kiln_sort_params *params,
+                struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error)
+{
+    return kiln_network_run(kiln_bitonic_network(technique), pool, params, entries, count, error);
+}
+
+const struct kiln_sort_row kiln_sort_bitonic_row = {
+    .in_gl = true, .create = create, .destroy = destroy, .run = run, .bytes = kiln_network_bytes};

@@ -4,6 +4,9 @@
 #define KILN_SORT_BITONIC_H
 
 #include "sort/network.h"
+#include "sort/row.h"
+
+extern const struct kiln_sort_row kiln_sort_bitonic_row;
 
 struct kiln_bitonic;
 

@@ -12,35 +12,34 @@ enum {
     BLOCKS_A_THREAD = 4, /* more than one, so that a thread that begins late takes fewer */
 };
 
-struct kiln_sort_cpu {
+struct sorter {
     struct kiln_threads *threads;
     struct kiln_buffer blocks; /* struct kiln_sort_block */
     struct kiln_sort_depth *depth;
 };
 
-struct kiln_sort_cpu *kiln_sort_cpu_create(struct kiln_threads *threads, struct kiln_error *error)
+static void destroy(void *technique)
 {
-    struct kiln_sort_cpu *sort = calloc(1, sizeof *sort);
+    struct sorter *sort = technique;
+    kiln_sort_depth_destroy(&sort->depth);
+    kiln_buffer_finish(&sort->blocks);
+    free(sort);
+}
+
+static void *create(const struct kiln_sort_setup *setup, struct kiln_error *error)
+{
+    struct sorter *sort = calloc(1, sizeof *sort);
     if (!sort) {
         kiln_error_no_memory(error, "the sort");
         return NULL;
     }
-    sort->threads = threads;
+    sort->threads = setup->threads;
     kiln_buffer_init(&sort->blocks, NULL, 0, "blocks of slots");
-    sort->depth = kiln_sort_depth_create(threads, error);
-    if (!sort->depth)
-        kiln_sort_cpu_destroy(&sort);
-    return sort;
-}
-
-void kiln_sort_cpu_destroy(struct kiln_sort_cpu **sort)
-{
-    if (!*sort)
-        return;
-    kiln_sort_depth_destroy(&(*sort)->depth);
-    kiln_buffer_finish(&(*sort)->blocks);
-    free(*sort);
-    *sort = NULL;
+    sort->depth = kiln_sort_depth_create(setup->threads, error);
+    if (sort->depth)
+        return sort;
+    destroy(sort);
+    return NULL;
 }
 
 struct listing {
@@ -95,7 +94,7 @@ static size_t append_blocks(struct kiln_sort_block *blocks, size_t count, uint32
 /* Cuts the used slots of the chosen systems into blocks, in the order of serials: from the oldest
  * slot in use to the end of the system's slots, then from their start. Returns NULL with an
  * error. */
-static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const struct kiln_pool *pool,
+static struct kiln_sort_block *make_blocks(struct sorter *sort, const struct kiln_pool *pool,
                                            uint64_t systems, size_t *count,
                                            struct kiln_error *error)
 {
@@ -134,10 +133,10 @@ static uint32_t sum_blocks(struct kiln_sort_block *blocks, size_t count)
     return place;
 }
 
-bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
-                       const struct kiln_sort_params *params, struct kiln_buffer *entries,
-                       uint32_t *count, struct kiln_error *error)
+static bool run(void *technique, struct kiln_pool *pool, const struct kiln_sort_params *params,
+                struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error)
 {
+    struct sorter *sort = technique;
     size_t block_count = 0;
     struct listing listing = {.records = kiln_buffer_host(&pool->records, KILN_READ, error)};
     listing.blocks = make_blocks(sort, pool, params->systems, &block_count, error);
@@ -157,3 +156,12 @@ bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
     kiln_buffer_set_content(entries, *count * sizeof(uint32_t));
     return true;
 }
+
+/* A slot takes a key and an entry, and twice that where cells of depth do not help. */
+static uint64_t bytes(uint32_t slots)
+{
+    return 2 * sizeof(uint32_t) * (uint64_t)slots;
+}
+
+const struct kiln_sort_row kiln_sort_cpu_row = {
+    .create = create, .destroy = destroy, .run = run, .bytes = bytes};

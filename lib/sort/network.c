@@ -64,6 +64,12 @@ uint32_t kiln_network_padded(uint32_t count)
     return padded;
 }
 
+uint64_t kiln_network_bytes(uint32_t slots)
+{
+    return (uint64_t)kiln_network_padded(slots) * PAIR_BYTES +
+           2 * sizeof(uint32_t) * (uint64_t)slots;
+}
+
 void kiln_network_dispatch(struct kiln_device *device, GLuint program,
                            const struct kiln_network_uniform *uniforms, size_t uniform_count,
                            uint32_t work, uint32_t group_work)

@@ -34,6 +34,10 @@ bool kiln_network_run(struct kiln_network *network, struct kiln_pool *pool,
  * two. */
 uint32_t kiln_network_padded(uint32_t count);
 
+/* Returns the bytes of a network's buffers for a pool with this number of slots: the padded pairs,
+ * the unsorted list and the sorted list. */
+uint64_t kiln_network_bytes(uint32_t slots);
+
 /* Writes the `count` words of `list` to entries in the ascending order of `pairs` (key, index in
  * the list), or in descending order if `reverse` is set. The pairs are overwritten. */
 bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,

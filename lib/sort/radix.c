@@ -182,10 +182,21 @@ bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint3
     return kiln_device_check(radix->device, "sort: radix", error);
 }
 
-bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
-                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
-                    uint32_t *count, struct kiln_error *error)
+static void *create(const struct kiln_sort_setup *setup, struct kiln_error *error)
 {
+    return kiln_radix_create(setup->device, error);
+}
+
+static void destroy(void *technique)
+{
+    struct kiln_radix *radix = technique;
+    kiln_radix_destroy(&radix);
+}
+
+static bool run(void *technique, struct kiln_pool *pool, const struct kiln_sort_params *params,
+                struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error)
+{
+    struct kiln_radix *radix = technique;
     if (params->order == KILN_SORT_BY_SERIAL)
         return kiln_alive_run(&radix->alive, pool, params, entries, NULL, count, error);
     kiln_buffer_reserve(entries, (size_t)pool->slot_count * PAIR_BYTES);
@@ -193,3 +204,12 @@ bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
            kiln_radix_pairs(radix, entries, *count, params->order == KILN_SORT_FRONT_TO_BACK,
                             error);
 }
+
+/* The pairs lie in memory twice; the list overwrites one of the copies. */
+static uint64_t bytes(uint32_t slots)
+{
+    return 2 * PAIR_BYTES * (uint64_t)slots;
+}
+
+const struct kiln_sort_row kiln_sort_radix_row = {
+    .in_gl = true, .create = create, .destroy = destroy, .run = run, .bytes = bytes};

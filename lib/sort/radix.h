@@ -2,18 +2,15 @@
 #ifndef KILN_SORT_RADIX_H
 #define KILN_SORT_RADIX_H
 
-#include "sort/sort.h"
+#include "sort/row.h"
+
+extern const struct kiln_sort_row kiln_sort_radix_row;
 
 struct kiln_radix;
 
 /* Returns NULL with an error on failure. */
 struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_radix_destroy(struct kiln_radix **radix);
-
-/* Does the same as kiln_sort_run. */
-bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
-                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
-                    uint32_t *count, struct kiln_error *error);
 
 /* Sorts the first `count` pairs (key, any word) of a buffer by ascending key; pairs of equal keys
  * keep their order. The list of the pairs' second words, reversed if `reverse` is set, overwrites

@@ -6,11 +6,17 @@
 #define KILN_SORT_SORT_H
 
 #include "base/thread.h"
-#include "particles/pool.h"
+#include "particles/history.h"
 
-enum kiln_sort_technique { KILN_SORT_CPU, KILN_SORT_RADIX, KILN_SORT_BITONIC, KILN_SORT_ODDEVEN };
+enum kiln_sort_technique {
+    KILN_SORT_CPU,
+    KILN_SORT_RADIX,
+    KILN_SORT_BITONIC,
+    KILN_SORT_ODDEVEN,
+    KILN_SORT_SPREAD, /* the passes of KILN_SORT_ODDEVEN, divided over frames */
+};
 
-/* The greatest number of frames that a sort can be spread over. */
+/* The greatest number of frames that KILN_SORT_SPREAD can be spread over. */
 enum { KILN_SORT_MAX_SPREAD = 64 };
 
 struct kiln_sort;
@@ -28,35 +34,23 @@ struct kiln_sort_params {
     enum kiln_sort_order order;
 };
 
-/* Creates a sort. device may be NULL for KILN_SORT_CPU; the threads are borrowed. Fails with
- * KILN_USAGE when another technique gets no device or one that does not compute exactly. */
-struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
-                                   struct kiln_threads *threads, struct kiln_error *error);
+struct kiln_sort_setup {
+    struct kiln_device *device;   /* NULL is allowed for KILN_SORT_CPU */
+    struct kiln_threads *threads; /* borrowed; used by KILN_SORT_CPU alone */
+    uint32_t frames;              /* KILN_SORT_SPREAD: 1 to KILN_SORT_MAX_SPREAD */
+};
 
-/* Creates a sort of technique `oddeven` that keeps an order from frame to frame and divides the
- * passes of a full sort over `frames` frames: 1 to KILN_SORT_MAX_SPREAD. */
-struct kiln_sort *kiln_sort_create_spread(struct kiln_device *device, uint32_t frames,
-                                          struct kiln_threads *threads, struct kiln_error *error);
+/* Creates a sort. Fails with KILN_USAGE when a technique other than KILN_SORT_CPU gets no device or
+ * one that does not compute exactly. */
+struct kiln_sort *kiln_sort_create(enum kiln_sort_technique technique,
+                                   const struct kiln_sort_setup *setup, struct kiln_error *error);
 void kiln_sort_destroy(struct kiln_sort **sort);
 
-/* Returns whether the list depends on earlier frames. If so, kiln_sort_advance must be called in
- * order for each moment that could be drawn, even if that moment is not drawn. */
-bool kiln_sort_keeps_history(const struct kiln_sort *sort);
+/* Returns whether lists depend on earlier frames. */
+bool kiln_sort_keeps_history(enum kiln_sort_technique technique);
 
-/* Runs the next part of sorting the kept order; kiln_sort_run then lists particles in this order.
- * Every call must pass a pool with the same slots. Has no effect on a sort that keeps no history.
- * Ignores params->systems and params->order. */
-bool kiln_sort_advance(struct kiln_sort *sort, struct kiln_pool *pool,
-                       const struct kiln_sort_params *params, struct kiln_error *error);
-
-/* Save and restore the kept order, which consists of all slots of the pool and the part of a sort
- * that comes next (next_part). They are only for sorts that keep history. Restoring fails with
- * KILN_INVALID_INPUT for slots that the pool does not have. */
-#define KILN_SORT_NOT_BEGUN UINT32_MAX
-bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32_t *slots,
-                    uint32_t *next_part, struct kiln_error *error);
-bool kiln_sort_restore(struct kiln_sort *sort, const struct kiln_pool *pool, const uint32_t *slots,
-                       uint32_t next_part, struct kiln_error *error);
+/* Returns what the sort keeps from frame to frame, which lives as long as the sort. */
+struct kiln_history kiln_sort_history(struct kiln_sort *sort);
 
 /* Fills entries with the draw entries of the living particles of the chosen systems in the order
  * params->order, and counts them. entries has room for the pool's slot_count; a technique may make
@@ -67,7 +61,7 @@ bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    uint32_t *count, struct kiln_error *error);
 
 /* Returns the size in bytes of the buffers that grow with the number of slots, the list of entries
- * included. spread: the sort comes from kiln_sort_create_spread. */
-uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32_t slots);
+ * included. */
+uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, uint32_t slots);
 
 #endif

@@ -12,28 +12,22 @@
 #define SORT_BIND_SUMS      5 /* sums of blocks of counts */
 #define SORT_BIND_TOTAL     6
 
-/* Locations of uniforms. A kernel has some of them. */
-#define SORT_AT_COUNT        0 /* pairs, counts, or slots of the pool */
-#define SORT_AT_SHIFT        1
-#define SORT_AT_TILES        2
-#define SORT_AT_REVERSE      3
-#define SORT_AT_PADDED       4
-#define SORT_AT_BUNCH        5
-#define SORT_AT_DISTANCE     6
-#define SORT_AT_STAGE        7
-#define SORT_AT_FIRST_PASS   8
-#define SORT_AT_END_PASS     9
-#define SORT_AT_BASE         10
-#define SORT_AT_CAPACITY     11
-#define SORT_AT_OLDEST       12
-#define SORT_AT_USED         13
-#define SORT_AT_FIRST_BLOCK  14
-#define SORT_AT_SYSTEM       15
-#define SORT_AT_CHOSEN       16
-#define SORT_AT_EYE          17
-#define SORT_AT_FORWARD      18
-#define SORT_AT_SYSTEM_COUNT 19
-#define SORT_AT_SYSTEMS      20 /* an array, which takes KILN_MAX_SYSTEMS locations from here on */
+/* Locations of uniforms. A kernel has some of them. shared/papers/sort_layout.h has more. */
+#define SORT_AT_COUNT       0 /* pairs, counts, or slots of the pool */
+#define SORT_AT_SHIFT       1
+#define SORT_AT_TILES       2
+#define SORT_AT_REVERSE     3
+#define SORT_AT_PADDED      4
+#define SORT_AT_BUNCH       5
+#define SORT_AT_DISTANCE    6
+#define SORT_AT_BASE        10
+#define SORT_AT_CAPACITY    11
+#define SORT_AT_OLDEST      12
+#define SORT_AT_USED        13
+#define SORT_AT_FIRST_BLOCK 14
+#define SORT_AT_SYSTEM      15
+#define SORT_AT_EYE         17
+#define SORT_AT_FORWARD     18
 
 /* Invocations of a work group, unless another size is given. */
 #define SORT_GROUP_SIZE 256

@@ -1,7 +1,5 @@
-/* Counts the living particles in each block of a system's slots, or with SPREAD of all slots. */
-// variant:
-// variant: SPREAD=1
-#include "sort/alive.glsl"
+/* Counts the living particles in each block of a system's slots. */
+#include "sort/alive_system.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 

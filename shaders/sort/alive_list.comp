@@ -1,12 +1,11 @@
-/* Writes the draw entries of the living particles of a system, or with SPREAD of all systems, in
- * order, behind those of the blocks before. PAIRED writes pairs of a key by depth and the entry
- * instead. NUMBERED writes the entries, and pairs of the key and the entry's place in the list. */
+/* Writes the draw entries of the living particles of a system in order, behind those of the blocks
+ * before. PAIRED writes pairs of a key by depth and the entry instead. NUMBERED writes the entries,
+ * and pairs of the key and the entry's place in the list. */
 // variant:
 // variant: PAIRED=1
 // variant: NUMBERED=1
-// variant: SPREAD=1
 #include "shared/keys.h"
-#include "sort/alive.glsl"
+#include "sort/alive_system.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
@@ -29,7 +28,7 @@ layout(location = SORT_AT_FORWARD) uniform vec3 forward; /* unit length */
 
 void write(uint place, uint slot)
 {
-    uint entry = KILN_ENTRY(system_of(slot), slot);
+    uint entry = KILN_ENTRY(system, slot);
 #ifndef PAIRED
     entries[place] = entry;
 #endif

@@ -63,8 +63,9 @@ static void read_into_pool(const char *path, const struct kiln_state_info *info)
     struct kiln_error error = {0};
     struct kiln_pool pool;
     struct kiln_threads *threads = kiln_threads_create(1);
-    uint32_t slots[78];
-    struct kiln_state state = {.pool = &pool, .slots = info->order[0] ? slots : NULL};
+    uint32_t words[78];
+    struct kiln_state state = {.pool = &pool,
+                               .history = {.of_slots = info->history[0] ? words : NULL}};
     fuzz_taken = threads && kiln_pool_init(&pool, NULL, &layout, &error) &&
                  kiln_state_read(&state, path, threads, &error);
     if (threads && !fuzz_taken)

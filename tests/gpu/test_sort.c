@@ -7,8 +7,8 @@
 
 #include "shared/random.h"
 #include "sort/bitonic.h"
-#include "sort/oddeven.h"
 #include "sort/pairs.h"
+#include "sort/papers/oddeven.h"
 #include "sort/radix.h"
 #include "sort/sort.h"
 #include "support/cmocka.h"
@@ -271,9 +271,9 @@ static void contest_init(struct contest *contest, struct kiln_device *device, ui
 {
     struct kiln_error error = {0};
     contest->threads = kiln_threads_create(2);
+    const struct kiln_sort_setup setup = {.device = device, .threads = contest->threads};
     for (int i = 0; i < TECHNIQUES; i++) {
-        contest->sorts[i] =
-            kiln_sort_create(device, (enum kiln_sort_technique)i, contest->threads, &error);
+        contest->sorts[i] = kiln_sort_create((enum kiln_sort_technique)i, &setup, &error);
         if (!contest->sorts[i])
             fail_msg("%s", error.message);
         kiln_buffer_init(&contest->entries[i], device, slots * sizeof(uint32_t), "entries");
@@ -409,7 +409,8 @@ static void records_stay_on_the_device(void **state)
         .forward = {0, 0, -1}, .systems = 0x7f, .order = KILN_SORT_FRONT_TO_BACK};
     for (int technique = KILN_SORT_RADIX; technique < TECHNIQUES; technique++) {
         struct kiln_sort *sort =
-            kiln_sort_create(*state, (enum kiln_sort_technique)technique, NULL, &error);
+            kiln_sort_create((enum kiln_sort_technique)technique,
+                             &(struct kiln_sort_setup){.device = *state}, &error);
         struct kiln_buffer entries;
         kiln_buffer_init(&entries, *state, pool.slot_count * sizeof(uint32_t), "entries");
         uint32_t count = 0;
@@ -430,10 +431,12 @@ static void device_techniques_need_an_exact_device(void **state)
     bool exact = device->info.exact;
     for (int technique = KILN_SORT_RADIX; technique < TECHNIQUES; technique++) {
         device->info.exact = exact;
-        assert_null(kiln_sort_create(NULL, (enum kiln_sort_technique)technique, NULL, &error));
+        struct kiln_sort_setup setup = {.device = NULL};
+        assert_null(kiln_sort_create((enum kiln_sort_technique)technique, &setup, &error));
         expect_error(&error, KILN_USAGE, "this sort needs a device; use sort=cpu");
         device->info.exact = false;
-        assert_null(kiln_sort_create(device, (enum kiln_sort_technique)technique, NULL, &error));
+        setup.device = device;
+        assert_null(kiln_sort_create((enum kiln_sort_technique)technique, &setup, &error));
         expect_error(&error, KILN_USAGE, "%s computes inexactly and cannot sort; use sort=cpu",
                      device->info.name);
     }

@@ -7,7 +7,8 @@
 #   shaders/  as lib/; but shaders/shared includes only headers of its own
 #   cmd/      may include lib/kiln*.h, its own headers and those of libc
 #   decode/   may include lib/kiln*.h, its own headers and those of the rooms base and asset
-# Only decode/ includes assimp, and only lib/base/ffmpeg.h includes FFmpeg. The name of a shader
+# Headers in folders papers/ are included in such folders and in the files that rooms.awk lists. Only
+# decode/ includes assimp, and only lib/base/ffmpeg.h includes FFmpeg. The name of a shader
 # file begins with the name of a C file of the same room.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
@@ -26,6 +27,12 @@ function where(path) {
     if (path ~ /^shaders\/shared\//) return "shared"
     sub(/^(lib|shaders)\//, "", path)
     return room_of(path)
+}
+
+# Returns the files that may use a folder papers/, or "no other file".
+function tables_of(path) {
+    sub(/\/[^\/]*$/, "", path)
+    return tables[path] ? tables[path] : "no other file"
 }
 
 # Returns whether a C file of lib/ belongs to a shader: its name is the shader's, or the start of
@@ -78,6 +85,8 @@ FNR == 1 {
         next
     }
     if (path ~ /^kiln(_[a-z]+)?\.h$/ && room != "shared") next
+    root = path ~ /^shared\// || path !~ /\.h$/ ? "shaders/" : "lib/"
+    if (!may_use(FILENAME, root path)) complain("\"" path "\" is for folders papers/ and " tables_of(root path))
     target = path ~ /^shared\// ? "shared" : room_of(path)
     if (room == "cmd") {
         if (path != "commit.h" && (target != "" || system("test -f cmd/" path) != 0))

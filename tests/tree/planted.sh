@@ -12,13 +12,15 @@ trap 'rm -rf "$tree"' EXIT
 # plant: makes a small source tree that breaks no rule, and enters it.
 plant() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{cmd,decode,tests/unit,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
+    mkdir -p "$tree"/{cmd,decode,tests/unit,lib/{base,draw/{moment,light},sort/papers},shaders/{shared,draw/light}}
     cd "$tree"
     : >lib/kiln.h
     : >lib/base/error.h
     : >lib/draw/moment/view.h
     : >lib/draw/light/smoke.c
     : >lib/sort/keys.h
+    : >lib/sort/papers/oddeven.h
+    echo '#include "sort/papers/oddeven.h"' >lib/sort/sort.c
     : >shaders/shared/exact.h
     : >shaders/draw/light/smoke_blur.frag
     echo '#include "kiln.h"' >cmd/main.c
@@ -48,6 +50,8 @@ plant && echo '#include "draw/light/lamp.h"' >lib/draw/moment/view.h
 refused "a later room of draw" 'draw/moment includes "draw/light/lamp.h" of draw/light' includes
 plant && echo '#include "sort/keys.h"' >lib/draw/light/lamp.c
 refused "a stage of the same rank" 'draw/light includes "sort/keys.h" of sort' includes
+plant && echo '#include "sort/papers/oddeven.h"' >lib/sort/cpu.c
+refused "a technique of the papers" '"sort/papers/oddeven.h" is for folders papers/ and lib/sort/sort.c' includes
 plant && echo '#include "base/error.h"' >cmd/main.c
 refused "the program past kiln.h" 'cmd/ includes "base/error.h"' includes
 plant && echo '#include <png.h>' >cmd/main.c
@@ -194,11 +198,19 @@ refused "two PRI macros on two lines" 'tests/unit/test_thing.c:3: two PRI macros
 # the function.
 objects=$tree/build/CMakeFiles/kiln_objects.dir/lib
 compile() { "$compiler" -x c -c -o "$objects/$1.c.o" - <<<"$2"; }
-mkdir -p "$objects"/{base,sort}
+mkdir -p "$objects"/{base,sort/papers}
 compile base/error 'void kiln_error(void) {}'
 compile sort/keys 'void kiln_error(void); void kiln_keys(void) { kiln_error(); }'
 "$scripts/symbols.sh" "$tree/build" >/dev/null
 compile base/error 'void kiln_keys(void); void kiln_error(void) { kiln_keys(); }'
 refused "a symbol of a room above" 'lib/base/error.c.o uses kiln_keys of lib/sort/keys.c.o' \
+    "$scripts/symbols.sh" "$tree/build"
+compile base/error 'void kiln_error(void) {}'
+compile sort/papers/oddeven 'void kiln_oddeven(void) {}'
+compile sort/sort 'void kiln_oddeven(void); void kiln_sort(void) { kiln_oddeven(); }'
+"$scripts/symbols.sh" "$tree/build" >/dev/null
+compile sort/cpu 'void kiln_oddeven(void); void kiln_cpu(void) { kiln_oddeven(); }'
+refused "a symbol of the papers" \
+    'lib/sort/cpu.c.o uses kiln_oddeven of lib/sort/papers/oddeven.c.o, which is in a folder papers/' \
     "$scripts/symbols.sh" "$tree/build"
 echo "every rule was seen to fail"

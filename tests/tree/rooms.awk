@@ -17,12 +17,27 @@ BEGIN {
     inner["draw/vector"] = 1; inner["draw/moment"] = 2; inner["draw/light"] = 3
     inner["draw/backdrop"] = 4; inner["draw/solids"] = 5; inner["draw/sprites"] = 6
     for (room in inner) divided[substr(room, 1, index(room, "/") - 1)] = 1
+
+    # A room may have a folder papers/, with techniques that exist for comparison with the papers that describe
+    # them. Of the files outside of such folders, only those below may use it, and they have its techniques as
+    # rows of a table.
+    tables["lib/sort/papers"] = "lib/sort/sort.c lib/bench/sort_timer.c"
 }
 
-# Returns the room of a path: "draw/light" for "draw/light/smoke.c", "base" for "base/error.h", ""
-# for "kiln.h".
+# Returns the room of a path: "draw/light" for "draw/light/smoke.c", "base" for "base/error.h",
+# "sort" for "sort/papers/oddeven.c", "" for "kiln.h".
 function room_of(path) {
-    return sub(/\/[^\/]*$/, "", path) ? path : ""
+    if (!sub(/\/[^\/]*$/, "", path)) return ""
+    sub(/\/papers$/, "", path)
+    return path
+}
+
+# Returns whether a file may include headers, and call functions, of another one as far as folders
+# papers/ go. Both are paths from the root of the tree.
+function may_use(file, other) {
+    if (other !~ /\/papers\/[^\/]*$/ || file ~ /\/papers\/[^\/]*$/) return 1
+    sub(/\/[^\/]*$/, "", other)
+    return index(" " tables[other] " ", " " file " ") > 0
 }
 
 function is_room(room) {

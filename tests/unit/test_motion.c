@@ -318,9 +318,9 @@ static void every_row_tells_the_truth(void **state)
         const bool one_value = seen->row->min == 1 && seen->row->max == 1 && !seen->row->fallback;
         if (is_group || one_value) /* nothing about it can be changed */
             continue;
-        /* What belongs to an order may come to the state by way of another row: rate: auto. */
+        /* What belongs to the view may come to the state by way of another row: rate: auto. */
         const bool looks = seen->row->parts == kiln_row_look;
-        const bool moves = !looks && seen->row->parts != kiln_row_order;
+        const bool moves = !looks && seen->row->parts != kiln_row_view;
         if (!seen->changed)
             fprintf(stderr, "%s: no fixture changes it\n", seen->path);
         else if (looks && seen->changed_state)

@@ -124,7 +124,8 @@ static void the_living_are_listed_by_system_and_serial(void **state)
     pool_init(&pool, NULL, (const uint32_t[]){4, 0, 7}, 3);
     struct kiln_particle *records = kiln_buffer_host(&pool.records, KILN_READ_WRITE, &error);
     struct kiln_threads *threads = kiln_threads_create(1);
-    struct kiln_sort *sort = kiln_sort_create(NULL, KILN_SORT_CPU, threads, &error);
+    struct kiln_sort *sort =
+        kiln_sort_create(KILN_SORT_CPU, &(struct kiln_sort_setup){.threads = threads}, &error);
     struct kiln_buffer entries;
     kiln_buffer_init(&entries, NULL, pool.slot_count * sizeof(uint32_t), "entries");
     const struct kiln_sort_params params = {.systems = 7};
@@ -155,11 +156,11 @@ static void bytes_are_those_that_are_taken(void **state)
 {
     (void)state;
     const uint32_t slots = 100000;
-    assert_int_equal(kiln_sort_bytes(KILN_SORT_CPU, false, slots), 8 * slots);
-    assert_int_equal(kiln_sort_bytes(KILN_SORT_RADIX, false, slots), 16 * slots);
-    assert_int_equal(kiln_sort_bytes(KILN_SORT_BITONIC, false, slots), 8 * 131072 + 8 * slots);
-    assert_int_equal(kiln_sort_bytes(KILN_SORT_ODDEVEN, false, slots), 8 * 131072 + 8 * slots);
-    assert_int_equal(kiln_sort_bytes(KILN_SORT_ODDEVEN, true, slots), 8 * 131072 + 4 * slots);
+    assert_int_equal(kiln_sort_bytes(KILN_SORT_CPU, slots), 8 * slots);
+    assert_int_equal(kiln_sort_bytes(KILN_SORT_RADIX, slots), 16 * slots);
+    assert_int_equal(kiln_sort_bytes(KILN_SORT_BITONIC, slots), 8 * 131072 + 8 * slots);
+    assert_int_equal(kiln_sort_bytes(KILN_SORT_ODDEVEN, slots), 8 * 131072 + 8 * slots);
+    assert_int_equal(kiln_sort_bytes(KILN_SORT_SPREAD, slots), 8 * 131072 + 4 * slots);
 }
 
 /* A pool of three systems with particles at given depths along z; serial 3 of each is dead. */
@@ -193,7 +194,8 @@ static void farthest_come_first_and_ties_by_system_and_serial(void **state)
     const struct kiln_particle *records = kiln_buffer_host(&pool.records, KILN_READ, &error);
     for (int t = 0; t < 3; t++) {
         struct kiln_threads *threads = kiln_threads_create(thread_counts[t]);
-        struct kiln_sort *sort = kiln_sort_create(NULL, KILN_SORT_CPU, threads, &error);
+        struct kiln_sort *sort =
+            kiln_sort_create(KILN_SORT_CPU, &(struct kiln_sort_setup){.threads = threads}, &error);
         assert_non_null(sort);
         struct kiln_buffer entries;
         kiln_buffer_init(&entries, NULL, pool.slot_count * sizeof(uint32_t), "entries");
@@ -245,7 +247,8 @@ static void front_to_back_is_the_exact_reverse(void **state)
     struct kiln_pool pool;
     fill_pool(&pool, 20000);
     struct kiln_threads *threads = kiln_threads_create(2);
-    struct kiln_sort *sort = kiln_sort_create(NULL, KILN_SORT_CPU, threads, &error);
+    struct kiln_sort *sort =
+        kiln_sort_create(KILN_SORT_CPU, &(struct kiln_sort_setup){.threads = threads}, &error);
     struct kiln_sort_params params = {.forward = {0, 0, -1}, .systems = 7};
     struct kiln_buffer lists[2];
     const uint32_t *entries[2];

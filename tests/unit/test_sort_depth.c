@@ -92,7 +92,8 @@ static void expect_order(struct kiln_pool *pool, uint32_t threads, const struct 
 {
     struct kiln_error error = {0};
     struct kiln_threads *workers = kiln_threads_create(threads);
-    struct kiln_sort *sort = kiln_sort_create(NULL, KILN_SORT_CPU, workers, &error);
+    struct kiln_sort *sort =
+        kiln_sort_create(KILN_SORT_CPU, &(struct kiln_sort_setup){.threads = workers}, &error);
     assert_non_null(sort);
     struct kiln_buffer list;
     kiln_buffer_init(&list, NULL, SLOTS * sizeof(uint32_t), "entries");

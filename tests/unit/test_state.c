@@ -31,13 +31,13 @@ static struct kiln_scene *load(const char *fixture, const char *override)
     return scene;
 }
 
-static void save(struct simulation *run, uint32_t *slots)
+static void save(struct simulation *run, uint32_t *words)
 {
-    struct kiln_state state = {.pool = &run->pool, .slots = slots, .next_part = 3};
+    struct kiln_state state = {.pool = &run->pool, .history = {words, 3}};
     struct kiln_error error = {0};
     memcpy(state.info.motion, MOTION, sizeof state.info.motion);
-    if (slots)
-        memcpy(state.info.order, MOTION, sizeof state.info.order);
+    if (words)
+        memcpy(state.info.history, MOTION, sizeof state.info.history);
     state.info.step = run->step;
     state.info.frame = 7;
     state.info.hash = simulation_hash(run, &state.info.alive);
@@ -65,7 +65,7 @@ static void check_scene(const char *fixture, const char *override, uint32_t step
     simulation_run(&whole, 120);
     simulation_run(&first, steps);
     save(&first, NULL);
-    struct kiln_state state = {.slots = NULL};
+    struct kiln_state state = {.pool = NULL};
     take_up(&second, &state);
     assert_int_equal(state.info.step, steps);
     assert_string_equal(state.info.motion, MOTION);
@@ -108,7 +108,7 @@ static void states_replace_what_is_there(void **state)
     simulation_run(&second, 70);
     save(&first, NULL);
     const uint32_t changes = second.pool.canvases[0].changes;
-    struct kiln_state loaded = {.slots = NULL};
+    struct kiln_state loaded = {.pool = NULL};
     take_up(&second, &loaded);
     assert_true(second.pool.canvases[0].changes > changes); /* who drew it draws it anew */
     simulation_run(&first, 20);
@@ -122,7 +122,7 @@ static void states_replace_what_is_there(void **state)
     kiln_scene_destroy(&scene);
 }
 
-static void orders_are_kept(void **state)
+static void histories_are_kept(void **state)
 {
     (void)state;
     struct kiln_scene *scene = load("rest", NULL);
@@ -130,24 +130,24 @@ static void orders_are_kept(void **state)
     simulation_start_with(&run, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_run(&run, 30);
     const uint32_t count = run.pool.slot_count;
-    uint32_t *slots = calloc(count, sizeof *slots), *read = calloc(count, sizeof *read);
-    assert_non_null(slots);
+    uint32_t *words = calloc(count, sizeof *words), *read = calloc(count, sizeof *read);
+    assert_non_null(words);
     assert_non_null(read);
     for (uint32_t i = 0; i < count; i++)
-        slots[i] = (i * 7 + 3) % count;
-    save(&run, slots);
-    struct kiln_state with = {.slots = read}, without = {.slots = NULL};
+        words[i] = (i * 7 + 3) % count;
+    save(&run, words);
+    struct kiln_state with = {.history = {.of_slots = read}}, without = {.pool = NULL};
     take_up(&run, &with);
-    assert_memory_equal(read, slots, count * sizeof *slots);
-    assert_int_equal(with.next_part, 3);
+    assert_memory_equal(read, words, count * sizeof *words);
+    assert_int_equal(with.history.of_whole, 3);
     assert_int_equal(with.info.frame, 7);
     take_up(&run, &without); /* the same file serves who wants none */
     save(&run, NULL);
     struct kiln_error error = {0};
     with.pool = &run.pool;
     assert_false(kiln_state_read(&with, FILE_NAME, run.threads, &error));
-    expect_error(&error, KILN_INVALID_INPUT, FILE_NAME ": the state has no order of a spread sort");
-    free(slots);
+    expect_error(&error, KILN_INVALID_INPUT, FILE_NAME ": the state has no history of a stage");
+    free(words);
     free(read);
     simulation_end(&run);
     kiln_scene_destroy(&scene);
@@ -287,7 +287,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(runs_go_on, test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(states_replace_what_is_there, test_enter_folder,
                                         test_leave_folder),
-        cmocka_unit_test_setup_teardown(orders_are_kept, test_enter_folder, test_leave_folder),
+        cmocka_unit_test_setup_teardown(histories_are_kept, test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(damage_is_seen, test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(other_files_are_refused, test_enter_folder,
                                         test_leave_folder),

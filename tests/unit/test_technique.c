@@ -167,7 +167,7 @@ static void a_sort_can_be_spread_over_frames(void **state)
         .gl = true, .software = true, .exact = true, .name = "Device"};
     struct kiln_techniques techniques;
     assert_true(kiln_techniques_choose(&device, flags, 2, &techniques, &error));
-    assert_int_equal(techniques.sort_spread, 0);
+    assert_int_equal(techniques.sort_number, 0);
 }
 
 static void inexact_devices_do_not_simulate_or_sort(void **state)

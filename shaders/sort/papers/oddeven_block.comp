@@ -1,7 +1,7 @@
 /* Runs the passes of the odd-even merge sort whose merges stay within a block, in shared memory. */
 // variant:
 // variant: NETWORK_GROUP_SIZE=512
-#include "sort/oddeven.glsl"
+#include "sort/papers/oddeven.glsl"
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 

@@ -2,7 +2,7 @@
  * the last key, wherever they were. So a new particle enters the order from its end, and no slot is
  * lost or listed twice. */
 #include "shared/keys.h"
-#include "sort/spread.glsl"
+#include "sort/papers/spread.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 

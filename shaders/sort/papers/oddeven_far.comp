@@ -1,5 +1,5 @@
 /* Runs one pass of the odd-even merge sort over the whole buffer of pairs. */
-#include "sort/oddeven.glsl"
+#include "sort/papers/oddeven.glsl"
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 

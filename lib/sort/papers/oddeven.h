@@ -1,7 +1,7 @@
 /* Technique `oddeven` lists the living particles and sorts them in compute by odd-even merges, all
- * at once or with the passes divided over frames. */
-#ifndef KILN_SORT_ODDEVEN_H
-#define KILN_SORT_ODDEVEN_H
+ * at once. spread.c divides the passes over frames. */
+#ifndef KILN_SORT_PAPERS_ODDEVEN_H
+#define KILN_SORT_PAPERS_ODDEVEN_H
 
 #include "sort/network.h"
 

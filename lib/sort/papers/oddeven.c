@@ -2,12 +2,13 @@
  * more passes than bitonic sorting, but fewer comparisons. Merges within a block run as one kernel
  * in shared memory. A longer merge compares pairs across every block's edge even at short
  * distances, so each of its passes goes through the buffer. */
-#include "sort/oddeven.h"
+#include "sort/papers/oddeven.h"
 
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "shared/sort_layout.h"
+#include "shared/papers/sort_layout.h"
+#include "sort/papers/papers.h"
 
 struct kiln_oddeven {
     struct kiln_device *device;
@@ -70,8 +71,8 @@ struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln
     oddeven->group_size = kiln_network_group_size(device);
     oddeven->block = oddeven->group_size * NETWORK_ITEMS;
     const struct kiln_network_kernel kernels[] = {
-        {"sort/oddeven_block.comp", NULL, &oddeven->block_program},
-        {"sort/oddeven_far.comp", NULL, &oddeven->far_program},
+        {"sort/papers/oddeven_block.comp", NULL, &oddeven->block_program},
+        {"sort/papers/oddeven_far.comp", NULL, &oddeven->far_program},
     };
     if (!kiln_network_init(&oddeven->network, device, sort_padded, oddeven, error) ||
         !kiln_network_programs(device, kernels, sizeof kernels / sizeof *kernels, error))
@@ -94,3 +95,23 @@ struct kiln_network *kiln_oddeven_network(struct kiln_oddeven *oddeven)
 {
     return &oddeven->network;
 }
+
+static void *create(const struct kiln_sort_setup *setup, struct kiln_error *error)
+{
+    return kiln_oddeven_create(setup->device, error);
+}
+
+static void destroy(void *technique)
+{
+    struct kiln_oddeven *oddeven = technique;
+    kiln_oddeven_destroy(&oddeven);
+}
+
+static bool run(void *technique, struct kiln_pool *pool, const struct kiln_sort_params *params,
+                struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error)
+{
+    return kiln_network_run(kiln_oddeven_network(technique), pool, params, entries, count, error);
+}
+
+const struct kiln_sort_row kiln_sort_oddeven_row = {
+    .in_gl = true, .create = create, .destroy = destroy, .run = run, .bytes = kiln_network_bytes};

@@ -16,6 +16,23 @@
 
 static struct scene_fixture fixture; /* too large for a stack */
 
+static struct kiln_sort *create_spread(struct kiln_device *device, uint32_t frames,
+                                       struct kiln_error *error)
+{
+    const struct kiln_sort_setup setup = {.device = device, .frames = frames};
+    return kiln_sort_create(KILN_SORT_SPREAD, &setup, error);
+}
+
+/* Runs the next part of a spread sort. */
+static void advance(struct kiln_sort *sort, struct kiln_pool *pool,
+                    const struct kiln_sort_params *params)
+{
+    struct kiln_error error = {0};
+    const struct kiln_history history = kiln_sort_history(sort);
+    if (!history.kind->advance(history.technique, pool, params->eye, params->forward, &error))
+        fail_msg("%s", error.message);
+}
+
 /* A run of a scene with two sorts: a whole one with `cpu`, and one that is spread over frames. */
 struct spread {
     struct simulation run;
@@ -31,8 +48,9 @@ static void spread_init(struct spread *s, struct kiln_device *device, uint32_t f
     *s = (struct spread){.lists = 0};
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 240);
     simulation_start(&s->run, &fixture.scene, device, 1);
-    s->whole = kiln_sort_create(NULL, KILN_SORT_CPU, s->run.threads, &error);
-    s->spread = kiln_sort_create_spread(device, frames, s->run.threads, &error);
+    s->whole = kiln_sort_create(KILN_SORT_CPU, &(struct kiln_sort_setup){.threads = s->run.threads},
+                                &error);
+    s->spread = create_spread(device, frames, &error);
     if (!s->whole || !s->spread)
         fail_msg("%s", error.message);
     size_t bytes = s->run.pool.slot_count * sizeof(uint32_t);
@@ -78,9 +96,7 @@ static bool spread_agrees(struct spread *s, const struct kiln_sort_params *param
 /* Runs the next part of the spread sort. Returns whether its order is that of the whole sort. */
 static bool spread_follows(struct spread *s, struct kiln_sort_params *params)
 {
-    struct kiln_error error = {0};
-    if (!kiln_sort_advance(s->spread, &s->run.pool, params, &error))
-        fail_msg("%s", error.message);
+    advance(s->spread, &s->run.pool, params);
     static const uint32_t masks[] = {0xffff, 5, 0};
     bool same = true;
     for (int i = 0; i < 6; i++) {
@@ -111,7 +127,7 @@ static void a_spread_sort_converges(void **state)
         }
         assert_true(frames[f] == 1 ? late == 0 : late > 10);
         for (uint32_t frame = 0; frame < 2 * frames[f] - 1; frame++)
-            assert_true(kiln_sort_advance(s.spread, &s.run.pool, &params, &(struct kiln_error){0}));
+            advance(s.spread, &s.run.pool, &params);
         for (int frame = 0; frame < 3; frame++)
             assert_true(spread_follows(&s, &params));
         spread_finish(&s);
@@ -132,14 +148,14 @@ static void small_pools_are_spread(void **state)
             records[slot].velocity_birth.w = KILN_PARTICLE_ALIVE;
         for (int system = 0; system < 3; system++)
             pool.systems[system].next_serial = capacities[i][system];
-        struct kiln_sort *sort = kiln_sort_create_spread(*state, 4, NULL, &error);
+        struct kiln_sort *sort = create_spread(*state, 4, &error);
         struct kiln_buffer entries;
         kiln_buffer_init(&entries, *state, pool.slot_count * sizeof(uint32_t), "entries");
         const struct kiln_sort_params params = {
             .forward = {0, 0, -1}, .systems = 7, .order = KILN_SORT_FRONT_TO_BACK};
         for (int frame = 0; frame < 6; frame++) {
             uint32_t count = 99;
-            assert_true(kiln_sort_advance(sort, &pool, &params, &error));
+            advance(sort, &pool, &params);
             assert_true(kiln_sort_run(sort, &pool, &params, &entries, &count, &error));
             assert_int_equal(count, pool.slot_count);
         }
@@ -150,8 +166,8 @@ static void small_pools_are_spread(void **state)
         kiln_sort_destroy(&sort);
         kiln_pool_finish(&pool);
     }
-    assert_null(kiln_sort_create_spread(*state, 0, NULL, &error));
-    assert_null(kiln_sort_create_spread(*state, KILN_SORT_MAX_SPREAD + 1, NULL, &error));
+    assert_null(create_spread(*state, 0, &error));
+    assert_null(create_spread(*state, KILN_SORT_MAX_SPREAD + 1, &error));
     expect_error(&error, KILN_USAGE, "a sort can be spread over 1 to 64 frames, not 65");
 }
 

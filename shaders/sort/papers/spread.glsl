@@ -1,10 +1,11 @@
-/* Declares an order of all slots that is kept from frame to frame (lib/sort/spread.c), as pairs of a
+/* Declares an order of all slots that is kept from frame to frame (lib/sort/papers/spread.c), as pairs of a
  * key and a slot. While they are sorted, the slot is replaced by its rank: the place of its
  * (system, serial) among all slots. */
-#ifndef KILN_SORT_SPREAD_GLSL
-#define KILN_SORT_SPREAD_GLSL
+#ifndef KILN_SORT_PAPERS_SPREAD_GLSL
+#define KILN_SORT_PAPERS_SPREAD_GLSL
 
 #include "shared/particle.h"
+#include "shared/papers/sort_layout.h"
 #include "sort/network.glsl"
 
 layout(location = SORT_AT_SYSTEM_COUNT) uniform uint pool_system_count;

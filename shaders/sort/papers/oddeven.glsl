@@ -3,9 +3,10 @@
  * twice that length, over a distance of 2^(s - t). Each comparison puts the lesser pair first, so
  * no pass undoes the order of earlier passes. That is why the passes may be divided over frames;
  * those of a bitonic sort may not. */
-#ifndef KILN_SORT_ODDEVEN_GLSL
-#define KILN_SORT_ODDEVEN_GLSL
+#ifndef KILN_SORT_PAPERS_ODDEVEN_GLSL
+#define KILN_SORT_PAPERS_ODDEVEN_GLSL
 
+#include "shared/papers/sort_layout.h"
 #include "sort/network.glsl"
 
 /* Finds `low`, the first pair of comparison i of a pass over a distance, in merges of stretches of

@@ -1,6 +1,6 @@
 /* Turns the ranks of the kept order back into slots after a sort. A slot means the same after the
  * next births; a rank does not. */
-#include "sort/spread.glsl"
+#include "sort/papers/spread.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
