@@ -39,22 +39,20 @@
 #define SIM_BIND_STEP         1
 #define SIM_BIND_SURROUNDINGS 2
 
-/* Storage blocks. */
+/* Storage blocks. shared/papers/step_layout.h has one more. */
 #define SIM_BIND_RECORDS 0
 #define SIM_BIND_SUMS    1
 #define SIM_BIND_TRACES  2
-#define SIM_BIND_SECOND  3 /* records of techniques with two buffers */
 #define SIM_BIND_GRIDS   4
 #define SIM_BIND_PUSHES  5
 #define SIM_BIND_SPINS   6
 #define SIM_BIND_VOLUMES 7
 
-/* Locations of uniforms of the kernels that hash or copy the state. */
+/* Locations of uniforms of the kernels that hash the state. */
 #define SIM_AT_SYSTEM     0
 #define SIM_AT_BASE       1
 #define SIM_AT_USED       2
 #define SIM_AT_FIRST_SPIN 3
-#define SIM_AT_SLOTS      4
 
 /* Blocks of the kernels that compute pushes, which also use SIM_BIND_KEYS, _RECORDS and _PUSHES. */
 #define INTERACT_BIND_PARAMS   3 /* uniform block */
@@ -88,15 +86,5 @@
 
 /* Slots that one invocation of the hash sums up. */
 #define SIM_HASH_SLOTS 16
-
-/* Births that one emitter makes, of 8 words each; every geometry shader may write 1024 words. On
- * software GL it is one: other invocations step one slot, and there the loops of an emitter
- * together have a limit (gpu/device.h). */
-#ifndef SIM_EMITTER_BIRTHS
-#define SIM_EMITTER_BIRTHS 32
-#endif
-
-/* Slots in a row of the textures of technique `texels`. */
-#define SIM_TEXEL_ROW 2048
 
 #endif

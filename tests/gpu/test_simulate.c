@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "shared/papers/step_layout.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/errors.h"

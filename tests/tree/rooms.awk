@@ -21,6 +21,7 @@ BEGIN {
     # A room may have a folder papers/, with techniques that exist for comparison with the papers that describe
     # them. Of the files outside of such folders, only those below may use it, and they have its techniques as
     # rows of a table.
+    tables["lib/sim/step/papers"] = "lib/sim/step/simulate.c"
     tables["lib/sort/papers"] = "lib/sort/sort.c lib/bench/sort_timer.c"
 }
 

@@ -113,44 +113,6 @@ void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
                       (GLintptr)(system * blocks->step_stride), sizeof(struct kiln_step_params));
 }
 
-bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_params *params,
-                          enum kiln_probe_stage stage, struct kiln_error *error)
-{
-    const bool fragment = stage == KILN_PROBE_FRAGMENT;
-    const char *name = fragment ? "fragment" : "geometry";
-    GLint blocks = 0;
-    glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
-                           : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
-                  &blocks);
-    const GLint needed = (params->trace_count > 0) + (params->grids->count > 0) +
-                         (params->grids->volumes.count > 0) + (params->push_count > 0) +
-                         (params->spin_count > 0);
-    if (blocks < needed)
-        return kiln_error_set(
-            error, KILN_NO_DEVICE,
-            "%s: there are %d storage blocks in %s shaders, and this scene, with children, paint, "
-            "grids, volumes or interaction, needs %d; use simulate=pingpong",
-            device->info.name, blocks, name, needed);
-    char reason[256];
-    struct kiln_error problem = {0};
-    if (kiln_probe_exact(device, stage, reason, &problem))
-        return true;
-    return kiln_error_set(error, KILN_NO_DEVICE,
-                          "%s computes inexactly in %s shaders (%s); use simulate=pingpong",
-                          device->info.name, name, reason[0] ? reason : problem.message);
-}
-
-GLuint kiln_sim_second(struct kiln_buffer *second, const struct kiln_pool *pool,
-                       struct kiln_error *error)
-{
-    if (second->size != pool->records.size) {
-        struct kiln_device *device = second->device;
-        kiln_buffer_finish(second);
-        kiln_buffer_init(second, device, pool->records.size, KILN_SIM_SECOND);
-    }
-    return kiln_buffer_gl(second, KILN_READ_WRITE, error);
-}
-
 /* Returns whether there are systems of families, or others. */
 static bool has_systems(const struct kiln_sim_params *params, bool families)
 {
@@ -191,8 +153,7 @@ static void add_defines(struct kiln_text *defines, const struct kiln_device *dev
     const bool oriented = (colliders & KINDS_ORIENTED) != 0;
     const bool grids = params->grids->count > 0, pushes = params->push_count > 0;
     const bool forces = kiln_sim_needs_all_forces(scene);
-    kiln_text_add(defines, "#define SIM_GROUP_SIZE %u\n#define SIM_EMITTER_BIRTHS %u\n",
-                  group_size(device), kiln_sim_emitter_births(device));
+    kiln_text_add(defines, "#define SIM_GROUP_SIZE %u\n", group_size(device));
     add_define(defines, "COLLIDE_ROUND", oriented || (colliders & KINDS_ROUND) != 0);
     add_define(defines, "COLLIDE_ORIENTED", oriented);
     add_define(defines, "COLLIDE_RUB", has_rubbing(params));
@@ -209,11 +170,6 @@ static void add_defines(struct kiln_text *defines, const struct kiln_device *dev
     kiln_sim_add_uses(defines, scene, params, families);
 }
 
-uint32_t kiln_sim_emitter_births(const struct kiln_device *device)
-{
-    return device->info.software ? 1 : SIM_EMITTER_BIRTHS;
-}
-
 /* Creates one of the two programs of a kernel, if a system needs it. */
 static bool create_program(GLuint *program, struct kiln_device *device,
                            const struct kiln_scene *scene, const struct kiln_sim_params *params,
@@ -223,6 +179,7 @@ static bool create_program(GLuint *program, struct kiln_device *device,
     struct kiln_text defines = {0};
     if (!has_systems(params, families))
         return true;
+    kiln_text_add(&defines, "%s", files.defines ? files.defines : "");
     add_defines(&defines, device, scene, params, families);
     files.defines = defines.data;
     *program = defines.failed ? 0 : kiln_program_create(device, &files, error);

@@ -34,19 +34,6 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
 void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
                           const struct kiln_sim_params *params, uint32_t system);
 
-/* Checks that particles can be moved in this stage, which is not compute. KILN_NO_DEVICE when the
- * device is not exact there, or has too few storage blocks there for scenes with children or
- * grids. */
-bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_params *params,
-                          enum kiln_probe_stage stage, struct kiln_error *error);
-
-#define KILN_SIM_SECOND "particles, second" /* label of a second buffer */
-
-/* Returns the GL buffer of a technique's second buffer, as large as the pool's, or 0 with an error.
- * It starts as zeros, and its contents stay as long as the pool exists. */
-GLuint kiln_sim_second(struct kiln_buffer *second, const struct kiln_pool *pool,
-                       struct kiln_error *error);
-
 /* The two variants of a kernel: for systems without relations, and for families. */
 struct kiln_sim_programs {
     GLuint alone, family; /* 0 if no system needs it */
@@ -55,15 +42,12 @@ struct kiln_sim_programs {
 /* Creates the programs of a kernel. `files` name a kernel that knows the variants COLLIDE_ROUND,
  * COLLIDE_ORIENTED, GRIDS, KEYS_STORED, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL,
  * SWEEP_ALL (with FORCES_ALL), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY,
- * and the masks of shaders/shared/uses.h; defines in `files` are ignored. kiln_sim_programs_finish
- * frees everything, also after a failure. */
+ * and the masks of shaders/shared/uses.h; it also gets the defines in `files`.
+ * kiln_sim_programs_finish frees everything, also after a failure. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);
 void kiln_sim_programs_finish(struct kiln_sim_programs *programs);
-
-/* Returns how many births one emitter of technique `feedback` makes in programs for a device. */
-uint32_t kiln_sim_emitter_births(const struct kiln_device *device);
 
 /* Returns the program for a system. */
 GLuint kiln_sim_programs_of(const struct kiln_sim_programs *programs,

@@ -1,19 +1,38 @@
 /* This file steps particles in place, in one compute dispatch a system. One invocation reads and
  * writes each slot, so no second buffer is needed. */
-#include "sim/step/inplace.h"
+#include <stdlib.h>
 
-bool kiln_inplace_init(struct kiln_sim_programs *programs, struct kiln_device *device,
-                       const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                       struct kiln_error *error)
+#include "base/error.h"
+#include "sim/step/row.h"
+
+static void destroy(void *technique)
 {
-    const struct kiln_program_params files = {.compute = "sim/step/inplace.comp"};
-    return kiln_sim_programs_init(programs, device, scene, params, files, error);
+    struct kiln_sim_programs *programs = technique;
+    kiln_sim_programs_finish(programs);
+    free(programs);
 }
 
-bool kiln_inplace_step(const struct kiln_sim_programs *programs,
-                       const struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
-                       struct kiln_pool *pool, struct kiln_error *error)
+static void *create(struct kiln_device *device, const struct kiln_scene *scene,
+                    const struct kiln_sim_params *params, struct kiln_error *error)
 {
+    const struct kiln_program_params files = {.compute = "sim/step/inplace.comp"};
+    struct kiln_sim_programs *programs = calloc(1, sizeof *programs);
+    if (!programs) {
+        kiln_error_no_memory(error, "the simulation");
+        return NULL;
+    }
+    if (kiln_sim_programs_init(programs, device, scene, params, files, error))
+        return programs;
+    destroy(programs);
+    return NULL;
+}
+
+static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
+                      const struct kiln_sim_params *params, struct kiln_pool *pool, uint32_t number,
+                      struct kiln_error *error)
+{
+    (void)number;
+    const struct kiln_sim_programs *programs = technique;
     GLuint records = kiln_buffer_gl(&pool->records, KILN_READ_WRITE, error);
     if (!records)
         return false;
@@ -28,3 +47,6 @@ bool kiln_inplace_step(const struct kiln_sim_programs *programs,
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return kiln_device_check(blocks->device, "simulate", error);
 }
+
+const struct kiln_simulate_row kiln_simulate_inplace_row = {
+    .copies = 1, .create = create, .destroy = destroy, .step = step_pool};

@@ -11,16 +11,21 @@
 #include "sim/crowd/interact.h"
 #include "sim/paint/paint.h"
 #include "sim/step/cpu.h"
-#include "sim/step/feedback.h"
 #include "sim/step/hash.h"
-#include "sim/step/inplace.h"
 #include "sim/step/newborn.h"
-#include "sim/step/pingpong.h"
-#include "sim/step/texels.h"
+#include "sim/step/papers/papers.h"
+
+/* The techniques in GL. Technique `cpu`, which steps the pool on the host, has no row. */
+static const struct kiln_simulate_row *const ROWS[] = {
+    [KILN_SIMULATE_INPLACE] = &kiln_simulate_inplace_row,
+    [KILN_SIMULATE_PINGPONG] = &kiln_simulate_pingpong_row,
+    [KILN_SIMULATE_FEEDBACK] = &kiln_simulate_feedback_row,
+    [KILN_SIMULATE_TEXELS] = &kiln_simulate_texels_row,
+};
 
 struct kiln_simulate {
     const struct kiln_scene *scene;
-    enum kiln_simulate_technique technique;
+    const struct kiln_simulate_row *row; /* NULL: technique `cpu` */
     struct kiln_threads *threads;
     struct kiln_sim_params params;
     struct kiln_sim_grids grids;
@@ -32,14 +37,10 @@ struct kiln_simulate {
     struct kiln_newborn newborn;
     /* the loop for this processor's width of vectors; only for technique `cpu` */
     kiln_slots_step *step_slots;
-    /* the following two are for all techniques in GL */
+    /* the following are for techniques in GL */
     struct kiln_sim_blocks blocks;
     struct kiln_sim_hash hash;
-    /* each of the following is for the technique of its name */
-    struct kiln_sim_programs inplace;
-    struct kiln_pingpong pingpong;
-    struct kiln_feedback feedback;
-    struct kiln_texels texels;
+    void *technique; /* what the row created */
 };
 
 static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
@@ -54,19 +55,8 @@ static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
     if (!kiln_sim_blocks_init(&s->blocks, device, s->scene, error) ||
         !kiln_sim_hash_init(&s->hash, device, error))
         return false;
-    switch (s->technique) {
-    case KILN_SIMULATE_CPU:
-        break;
-    case KILN_SIMULATE_INPLACE:
-        return kiln_inplace_init(&s->inplace, device, s->scene, &s->params, error);
-    case KILN_SIMULATE_PINGPONG:
-        return kiln_pingpong_init(&s->pingpong, device, s->scene, &s->params, error);
-    case KILN_SIMULATE_FEEDBACK:
-        return kiln_feedback_init(&s->feedback, device, s->scene, &s->params, error);
-    case KILN_SIMULATE_TEXELS:
-        return kiln_texels_init(&s->texels, device, s->scene, &s->params, error);
-    }
-    return false;
+    s->technique = s->row->create(device, s->scene, &s->params, error);
+    return s->technique != NULL;
 }
 
 static bool choose_loop(struct kiln_simulate *s, struct kiln_error *error)
@@ -89,10 +79,10 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
         return NULL;
     }
     simulate->scene = scene;
-    simulate->technique = technique;
+    simulate->row = ROWS[technique];
     simulate->threads = threads;
     /* the side where the buffers lie; NULL: the host */
-    struct kiln_device *side = technique == KILN_SIMULATE_CPU ? NULL : device;
+    struct kiln_device *side = simulate->row ? device : NULL;
     bool ok = kiln_sim_grids_init(&simulate->grids, side, scene, threads, error);
     kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
     kiln_buffer_init(&simulate->traces, side,
@@ -100,8 +90,8 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     ok = ok &&
          kiln_interact_init(&simulate->interact, side, scene, &simulate->params, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
-    ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loop(simulate, error)
-                                               : init_on_device(simulate, device, error));
+    ok = ok &&
+         (simulate->row ? init_on_device(simulate, device, error) : choose_loop(simulate, error));
     if (!ok)
         kiln_simulate_destroy(&simulate);
     return simulate;
@@ -113,10 +103,8 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     if (!s)
         return;
     if (s->blocks.device) { /* kiln_sim_blocks_init makes the first of these GL objects */
-        kiln_texels_finish(&s->texels);
-        kiln_feedback_finish(&s->feedback);
-        kiln_pingpong_finish(&s->pingpong);
-        kiln_sim_programs_finish(&s->inplace);
+        if (s->technique)
+            s->row->destroy(s->technique);
         kiln_sim_hash_finish(&s->hash);
         kiln_sim_blocks_finish(&s->blocks);
     }
@@ -135,27 +123,16 @@ static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint
     if (!kiln_volumes_step(&s->grids.volumes, s->scene, step, s->threads, error) ||
         !kiln_sim_params_step(&s->params, s->scene, pool, step, error))
         return false;
-    const bool host = s->technique == KILN_SIMULATE_CPU;
+    const bool host = s->row == NULL;
     struct kiln_buffer *pushes = &s->interact.pushes;
     if (!kiln_interact_gather(&s->interact, &s->params, pool, host ? NULL : &s->blocks.keys, error))
         return false;
-    if (!host &&
-        !kiln_sim_blocks_upload(&s->blocks, &s->params, &s->traces, pushes, &pool->spins, error))
-        return false;
-    switch (s->technique) {
-    case KILN_SIMULATE_CPU:
+    if (host)
         return kiln_sim_cpu_step(s->step_slots, s->threads, &s->params, s->scene->keys, pool,
                                  &s->traces, pushes, error);
-    case KILN_SIMULATE_INPLACE:
-        return kiln_inplace_step(&s->inplace, &s->blocks, &s->params, pool, error);
-    case KILN_SIMULATE_PINGPONG:
-        return kiln_pingpong_step(&s->pingpong, &s->blocks, &s->params, pool, error);
-    case KILN_SIMULATE_FEEDBACK:
-        return kiln_feedback_step(&s->feedback, &s->blocks, &s->params, pool, error);
-    case KILN_SIMULATE_TEXELS:
-        return kiln_texels_step(&s->texels, &s->blocks, &s->params, pool, step, error);
-    }
-    return false;
+    return kiln_sim_blocks_upload(&s->blocks, &s->params, &s->traces, pushes, &pool->spins,
+                                  error) &&
+           s->row->step(s->technique, &s->blocks, &s->params, pool, step, error);
 }
 
 bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
@@ -181,7 +158,7 @@ bool kiln_simulate_hide_births(struct kiln_simulate *simulate, struct kiln_pool 
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                         struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error)
 {
-    const bool host = simulate->technique == KILN_SIMULATE_CPU;
+    const bool host = simulate->row == NULL;
     const bool ok = host ? kiln_sim_cpu_hash(simulate->threads, pool, hash, alive, error)
                          : kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
     if (ok)
@@ -196,10 +173,6 @@ const char *kiln_simulate_warning(struct kiln_simulate *simulate)
 
 size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique)
 {
-    size_t copies = 1;
-    if (technique == KILN_SIMULATE_PINGPONG || technique == KILN_SIMULATE_FEEDBACK)
-        copies = 2;
-    else if (technique == KILN_SIMULATE_TEXELS)
-        copies = 3;
+    const size_t copies = ROWS[technique] ? ROWS[technique]->copies : 1;
     return copies * sizeof(struct kiln_particle);
 }

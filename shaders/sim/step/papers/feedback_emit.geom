@@ -1,6 +1,7 @@
-/* Technique `pingpong` (Heinz 2019, 3.3.4, the unoptimised compute shader): reads one buffer and
- * writes another. The thesis appends to the target by an atomic counter. Here a slot's particle, or
- * an empty record, goes to the same slot of the target, so no result depends on scheduling. */
+/* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 3 to 8): an emitter writes new
+ * particles. The thesis has one emitter. A geometry shader writes a limited number of vertices, so
+ * here each emitter spawns SIM_EMITTER_BIRTHS of the step's births, and the host draws as many
+ * emitters as that takes. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
@@ -25,26 +26,22 @@
 // variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: SWEEP_ALL=1
 // variant: SWEEP_ALL=1 FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 PUSHES=1
-#include "sim/step/slot.glsl"
+#include "shared/papers/step_layout.h"
 
-layout(local_size_x = SIM_GROUP_SIZE) in;
+layout(points) in;
+layout(points, max_vertices = SIM_EMITTER_BIRTHS) out;
 
-layout(std430, binding = SIM_BIND_RECORDS) readonly buffer record_block
-{
-    kiln_particle records[];
-};
-
-layout(std430, binding = SIM_BIND_SECOND) writeonly buffer second_block
-{
-    kiln_particle moved[];
-};
+#include "sim/step/papers/feedback.glsl"
 
 void main()
 {
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint slot = group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (slot >= step_params.used)
-        return;
-    uint index = step_params.base + slot;
-    moved[index] = slot_after(slot, records[index]);
+    uint first = vertices[0].number * SIM_EMITTER_BIRTHS;
+    uint end = min(first + SIM_EMITTER_BIRTHS, step_params.birth_count);
+    for (uint birth = first; birth < end; birth++) {
+        uint to_wrap = step_params.capacity - step_params.first_slot;
+        uint slot = birth < to_wrap ? step_params.first_slot + birth : birth - to_wrap;
+        kiln_particle p = slot_after(slot, step_dead());
+        if (particle_is_alive(p))
+            write_particle(p);
+    }
 }

@@ -1,8 +1,8 @@
 /* Finds the texel of a slot of the pool, for technique `texels`. */
-#ifndef KILN_SIM_TEXELS_GLSL
-#define KILN_SIM_TEXELS_GLSL
+#ifndef KILN_SIM_STEP_PAPERS_TEXELS_GLSL
+#define KILN_SIM_STEP_PAPERS_TEXELS_GLSL
 
-#include "shared/limits.h"
+#include "shared/papers/step_layout.h"
 
 ivec2 texel_of(uint slot)
 {

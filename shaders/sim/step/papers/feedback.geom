@@ -29,7 +29,7 @@
 layout(points) in;
 layout(points, max_vertices = 1) out;
 
-#include "sim/step/feedback.glsl"
+#include "sim/step/papers/feedback.glsl"
 
 void main()
 {

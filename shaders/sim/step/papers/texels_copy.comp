@@ -3,7 +3,7 @@
 // variant:
 // variant: FROM_RECORDS=1
 #include "shared/particle.h"
-#include "sim/step/texels.glsl"
+#include "sim/step/papers/texels.glsl"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 

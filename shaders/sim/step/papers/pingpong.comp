@@ -1,6 +1,6 @@
-/* Technique `texels` (Heinz 2019, 2.2.3; UberFlow, 4.1 and 4.2; Drone 2007, 7.3.1): a particle is a
- * texel of two textures, and a fragment shader reads it and writes its next state into two
- * others. */
+/* Technique `pingpong` (Heinz 2019, 3.3.4, the unoptimised compute shader): reads one buffer and
+ * writes another. The thesis appends to the target by an atomic counter. Here a slot's particle, or
+ * an empty record, goes to the same slot of the target, so no result depends on scheduling. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
@@ -25,30 +25,27 @@
 // variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: SWEEP_ALL=1
 // variant: SWEEP_ALL=1 FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 PUSHES=1
-
-/* Values are evaluated without loops: with a loop for each value of a fragment shader, llvmpipe's
- * compiler needs minutes. */
-#define VALUE_UNROLLED 1
-
+#include "shared/papers/step_layout.h"
 #include "sim/step/slot.glsl"
 
-layout(binding = 0) uniform usampler2D positions;
-layout(binding = 1) uniform usampler2D velocities;
+layout(local_size_x = SIM_GROUP_SIZE) in;
 
-layout(location = 0) out uvec4 position_serial;
-layout(location = 1) out uvec4 velocity_birth;
+layout(std430, binding = SIM_BIND_RECORDS) readonly buffer record_block
+{
+    kiln_particle records[];
+};
+
+layout(std430, binding = SIM_BIND_SECOND) writeonly buffer second_block
+{
+    kiln_particle moved[];
+};
 
 void main()
 {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    uint index = uint(at.y) * uint(SIM_TEXEL_ROW) + uint(at.x);
-    uint slot = index - step_params.base;
-    if (index < step_params.base || slot >= step_params.used)
-        discard; /* the slot belongs to another system, which has its own pass */
-    kiln_particle old;
-    old.position_serial = texelFetch(positions, at, 0);
-    old.velocity_birth = texelFetch(velocities, at, 0);
-    kiln_particle after = slot_after(slot, old);
-    position_serial = after.position_serial;
-    velocity_birth = after.velocity_birth;
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint slot = group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (slot >= step_params.used)
+        return;
+    uint index = step_params.base + slot;
+    moved[index] = slot_after(slot, records[index]);
 }

@@ -1,7 +1,7 @@
 /* Declares the inputs and the stream of the geometry shaders of technique `feedback`: feedback.geom
  * and feedback_emit.geom. */
-#ifndef KILN_SIM_FEEDBACK_GLSL
-#define KILN_SIM_FEEDBACK_GLSL
+#ifndef KILN_SIM_STEP_PAPERS_FEEDBACK_GLSL
+#define KILN_SIM_STEP_PAPERS_FEEDBACK_GLSL
 
 #include "sim/step/slot.glsl"
 

@@ -1,7 +1,6 @@
-/* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 3 to 8): an emitter writes new
- * particles. The thesis has one emitter. A geometry shader writes a limited number of vertices, so
- * here each emitter spawns SIM_EMITTER_BIRTHS of the step's births, and the host draws as many
- * emitters as that takes. */
+/* Technique `texels` (Heinz 2019, 2.2.3; UberFlow, 4.1 and 4.2; Drone 2007, 7.3.1): a particle is a
+ * texel of two textures, and a fragment shader reads it and writes its next state into two
+ * others. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
@@ -26,22 +25,31 @@
 // variant: FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1
 // variant: SWEEP_ALL=1
 // variant: SWEEP_ALL=1 FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 PUSHES=1
-#include "shared/limits.h"
 
-layout(points) in;
-layout(points, max_vertices = SIM_EMITTER_BIRTHS) out;
+/* Values are evaluated without loops: with a loop for each value of a fragment shader, llvmpipe's
+ * compiler needs minutes. */
+#define VALUE_UNROLLED 1
 
-#include "sim/step/feedback.glsl"
+#include "shared/papers/step_layout.h"
+#include "sim/step/slot.glsl"
+
+layout(binding = 0) uniform usampler2D positions;
+layout(binding = 1) uniform usampler2D velocities;
+
+layout(location = 0) out uvec4 position_serial;
+layout(location = 1) out uvec4 velocity_birth;
 
 void main()
 {
-    uint first = vertices[0].number * SIM_EMITTER_BIRTHS;
-    uint end = min(first + SIM_EMITTER_BIRTHS, step_params.birth_count);
-    for (uint birth = first; birth < end; birth++) {
-        uint to_wrap = step_params.capacity - step_params.first_slot;
-        uint slot = birth < to_wrap ? step_params.first_slot + birth : birth - to_wrap;
-        kiln_particle p = slot_after(slot, step_dead());
-        if (particle_is_alive(p))
-            write_particle(p);
-    }
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    uint index = uint(at.y) * uint(SIM_TEXEL_ROW) + uint(at.x);
+    uint slot = index - step_params.base;
+    if (index < step_params.base || slot >= step_params.used)
+        discard; /* the slot belongs to another system, which has its own pass */
+    kiln_particle old;
+    old.position_serial = texelFetch(positions, at, 0);
+    old.velocity_birth = texelFetch(velocities, at, 0);
+    kiln_particle after = slot_after(slot, old);
+    position_serial = after.position_serial;
+    velocity_birth = after.velocity_birth;
 }

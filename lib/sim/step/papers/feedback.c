@@ -3,36 +3,33 @@
  * the next step (Heinz 2019, 3.3.3). Here the number stays in GL, and each step ends with the state
  * in the pool's slots, as with every technique, where it is hashed, sorted, drawn and saved.
  * Children read their parents' traces from storage blocks, as in compute. */
-#include "sim/step/feedback.h"
+#include <stdio.h>
+#include <stdlib.h>
 
-bool kiln_feedback_init(struct kiln_feedback *feedback, struct kiln_device *device,
-                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                        struct kiln_error *error)
+#include "base/error.h"
+#include "gpu/capture.h"
+#include "shared/papers/step_layout.h"
+#include "sim/step/papers/common.h"
+#include "sim/step/papers/papers.h"
+
+struct feedback {
+    struct kiln_capture capture;
+    struct kiln_sim_programs move, emit;
+    GLuint place_program;
+    /* transform feedback objects, which also have the number of captured particles */
+    GLuint moved, born;
+    struct kiln_buffer stream; /* as large as the pool's records */
+};
+
+/* Returns how many births one emitter makes in programs for a device. */
+static uint32_t emitter_births(const struct kiln_device *device)
 {
-    *feedback = (struct kiln_feedback){.place_program = 0};
-    kiln_buffer_init(&feedback->stream, device, 0, KILN_SIM_SECOND);
-    if (!kiln_sim_check_stage(device, params, KILN_PROBE_GEOMETRY, error) ||
-        !kiln_capture_init(&feedback->capture, device, 2, error))
-        return false;
-    glGenTransformFeedbacks(1, &feedback->moved);
-    glGenTransformFeedbacks(1, &feedback->born);
-    static const char *const record[] = {"stream_position_serial", "stream_velocity_birth"};
-    struct kiln_program_params files = {.vertex = "sim/step/feedback.vert",
-                                        .geometry = "sim/step/feedback.geom",
-                                        .captured = record,
-                                        .captured_count = 2};
-    if (!kiln_sim_programs_init(&feedback->move, device, scene, params, files, error))
-        return false;
-    files.geometry = "sim/step/feedback_emit.geom";
-    if (!kiln_sim_programs_init(&feedback->emit, device, scene, params, files, error))
-        return false;
-    feedback->place_program = kiln_program_create(
-        device, &(struct kiln_program_params){.vertex = "sim/step/feedback_place.vert"}, error);
-    return feedback->place_program != 0;
+    return device->info.software ? 1 : SIM_EMITTER_BIRTHS;
 }
 
-void kiln_feedback_finish(struct kiln_feedback *feedback)
+static void destroy(void *technique)
 {
+    struct feedback *feedback = technique;
     kiln_capture_finish(&feedback->capture);
     kiln_sim_programs_finish(&feedback->move);
     kiln_sim_programs_finish(&feedback->emit);
@@ -43,7 +40,50 @@ void kiln_feedback_finish(struct kiln_feedback *feedback)
     if (feedback->born)
         glDeleteTransformFeedbacks(1, &feedback->born);
     kiln_buffer_finish(&feedback->stream);
-    *feedback = (struct kiln_feedback){.place_program = 0};
+    free(feedback);
+}
+
+static bool init(struct feedback *feedback, struct kiln_device *device,
+                 const struct kiln_scene *scene, const struct kiln_sim_params *params,
+                 struct kiln_error *error)
+{
+    kiln_buffer_init(&feedback->stream, device, 0, KILN_SIM_SECOND);
+    if (!kiln_sim_check_stage(device, params, KILN_PROBE_GEOMETRY, error) ||
+        !kiln_capture_init(&feedback->capture, device, 2, error))
+        return false;
+    glGenTransformFeedbacks(1, &feedback->moved);
+    glGenTransformFeedbacks(1, &feedback->born);
+    static const char *const record[] = {"stream_position_serial", "stream_velocity_birth"};
+    char defines[48];
+    snprintf(defines, sizeof defines, "#define SIM_EMITTER_BIRTHS %u\n", emitter_births(device));
+    struct kiln_program_params files = {.vertex = "sim/step/papers/feedback.vert",
+                                        .geometry = "sim/step/papers/feedback.geom",
+                                        .defines = defines,
+                                        .captured = record,
+                                        .captured_count = 2};
+    if (!kiln_sim_programs_init(&feedback->move, device, scene, params, files, error))
+        return false;
+    files.geometry = "sim/step/papers/feedback_emit.geom";
+    if (!kiln_sim_programs_init(&feedback->emit, device, scene, params, files, error))
+        return false;
+    feedback->place_program = kiln_program_create(
+        device, &(struct kiln_program_params){.vertex = "sim/step/papers/feedback_place.vert"},
+        error);
+    return feedback->place_program != 0;
+}
+
+static void *create(struct kiln_device *device, const struct kiln_scene *scene,
+                    const struct kiln_sim_params *params, struct kiln_error *error)
+{
+    struct feedback *feedback = calloc(1, sizeof *feedback);
+    if (!feedback) {
+        kiln_error_no_memory(error, "the simulation");
+        return NULL;
+    }
+    if (init(feedback, device, scene, params, error))
+        return feedback;
+    destroy(feedback);
+    return NULL;
 }
 
 static const size_t RECORD = sizeof(struct kiln_particle);
@@ -94,13 +134,13 @@ static void empty(struct range slots)
 
 /* Steps one system. Births take the last places of the stream; the particles that move fit before
  * them, since they come from slots that nothing is born into. */
-static void step_system(const struct kiln_feedback *feedback, const struct kiln_step_params *step,
+static void step_system(const struct feedback *feedback, const struct kiln_step_params *step,
                         GLuint records, GLuint second)
 {
     const struct range slots = {records, step->base, step->used};
     const struct range moved = {second, step->base, step->used - step->birth_count};
     const struct range born = {second, moved.first + moved.count, step->birth_count};
-    const uint32_t births = kiln_sim_emitter_births(feedback->stream.device);
+    const uint32_t births = emitter_births(feedback->stream.device);
     const uint32_t emitters = (step->birth_count + births - 1) / births;
     read_vertices(slots);
     stream(feedback->moved, kiln_sim_programs_of(&feedback->move, step), slots.count, moved);
@@ -111,10 +151,12 @@ static void step_system(const struct kiln_feedback *feedback, const struct kiln_
     place(feedback->born, born);
 }
 
-bool kiln_feedback_step(struct kiln_feedback *feedback, const struct kiln_sim_blocks *blocks,
-                        const struct kiln_sim_params *params, struct kiln_pool *pool,
-                        struct kiln_error *error)
+static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
+                      const struct kiln_sim_params *params, struct kiln_pool *pool, uint32_t number,
+                      struct kiln_error *error)
 {
+    (void)number;
+    struct feedback *feedback = technique;
     GLuint records = kiln_buffer_gl(&pool->records, KILN_READ_WRITE, error);
     GLuint second = kiln_sim_second(&feedback->stream, pool, error);
     if (!records || !second)
@@ -132,3 +174,6 @@ bool kiln_feedback_step(struct kiln_feedback *feedback, const struct kiln_sim_bl
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
     return kiln_device_check(blocks->device, "simulate", error);
 }
+
+const struct kiln_simulate_row kiln_simulate_feedback_row = {
+    .copies = 2, .create = create, .destroy = destroy, .step = step_pool};
