@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/simd.h"
 #include "base/thread.h"
-#include "bench/suite.h"
+#include "bench/papers/papers.h"
 
 #define JOBS    "jobs"
 #define THREADS "threads"

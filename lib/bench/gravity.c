@@ -4,7 +4,7 @@
  *
  * The suite has three parts. The first measures pairs of bodies a second, without a scene: the
  * host's loop (sim/crowd/gravity.h) at each width of vectors that the machine has, and the paper's
- * way, which splats forces into a texture (bench/force_splat.h) and needs GL. The second measures
+ * way, which splats forces into a texture (papers/force_splat.h) and needs GL. The second measures
  * whole frames of a scene. The third, in drift.c, measures how well bodies keep their energy.
  *
  * Saved results hold the names of parts and rows. After a change of a name, or of what is measured
@@ -17,22 +17,23 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "bench/force_splat.h"
-#include "bench/suite.h"
+#include "bench/papers/papers.h"
 #include "shared/random.h"
 
 static const char SCENE[] = "bench/stars.yaml";
 
 /* ---- Pairs ----------------------------------------------------------------------------------- */
 
+/* The ways in GL to compute gravity. */
+static const struct kiln_gravity_row *const ROWS[] = {&kiln_gravity_splats_32_row,
+                                                      &kiln_gravity_splats_16_row};
+
 enum {
-    SPLATS = 2, /* formats of the texture into which forces are splatted */
-    /* The ways to compute gravity that are compared: the first KILN_SIMD_COUNT are the widths of
-     * vectors, numbered as enum kiln_simd, and the splats follow. */
-    VARIANTS = KILN_SIMD_COUNT + SPLATS,
+    ROW_COUNT = sizeof ROWS / sizeof *ROWS,
+    /* The ways that are compared: the first KILN_SIMD_COUNT are the widths of vectors, numbered as
+     * enum kiln_simd, and the rows follow. */
+    VARIANTS = KILN_SIMD_COUNT + ROW_COUNT,
     TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK, /* bodies that a thread takes at a time */
-    /* With more bodies than these, llvmpipe would blend for seconds in each turn. */
-    MOST_SPLATTED_IN_SOFTWARE = 4096,
 };
 
 /* Holds the bodies of one size, and the times that were measured with them. */
@@ -42,28 +43,26 @@ struct pair_bench {
     uint32_t count, capacity; /* bodies; the same rounded up to a multiple of KILN_GRAVITY_BLOCK */
     float4 *sources;
     float3 *accelerations;
-    struct kiln_force_splat *splats[SPLATS]; /* NULL: not measured */
-    const char *problems[SPLATS];            /* why a splat is not measured */
-    struct kiln_samples *samples;            /* [WAYS] */
+    void *ways[ROW_COUNT];           /* what the rows created; NULL: not measured */
+    const char *problems[ROW_COUNT]; /* why a row is not measured */
+    struct kiln_samples *samples;    /* [VARIANTS] */
 };
 
-static bool is_splat(size_t variant)
+static bool is_in_gl(size_t variant)
 {
     return variant >= KILN_SIMD_COUNT;
 }
 
 static void variant_name(size_t variant, char name[32])
 {
-    static const char *const formats[SPLATS] = {"splats, RGBA32F", "splats, RGBA16F"};
-    if (is_splat(variant))
-        snprintf(name, 32, "%s", formats[variant - KILN_SIMD_COUNT]);
+    if (is_in_gl(variant))
+        snprintf(name, 32, "%s", ROWS[variant - KILN_SIMD_COUNT]->name);
     else
         snprintf(name, 32, "cpu, %s", kiln_simd_name((enum kiln_simd)variant));
 }
 
 static bool set_up(struct pair_bench *pair_bench, struct kiln_error *error)
 {
-    static const GLenum formats[SPLATS] = {GL_RGBA32F, GL_RGBA16F};
     struct kiln_device *device = kiln_device_gl(pair_bench->run->device);
     pair_bench->threads = kiln_threads_create(pair_bench->run->params->threads);
     pair_bench->capacity =
@@ -78,13 +77,12 @@ static bool set_up(struct pair_bench *pair_bench, struct kiln_error *error)
         const float3 at = random_in_ball(random_stream(1, i), 0, false);
         pair_bench->sources[i] = FLOAT4(at.x, at.y, at.z, 1e-3f);
     }
-    for (int i = 0; i < SPLATS; i++) {
+    for (int i = 0; i < ROW_COUNT; i++) {
         if (!device)
             pair_bench->problems[i] = "there is no OpenGL";
-        else if (device->info.software && pair_bench->count > MOST_SPLATTED_IN_SOFTWARE)
+        else if (device->info.software && pair_bench->count > ROWS[i]->most_in_software)
             pair_bench->problems[i] = "the measurement takes seconds on a software device";
-        else if (!(pair_bench->splats[i] =
-                       kiln_force_splat_create(device, formats[i], pair_bench->count, error)))
+        else if (!(pair_bench->ways[i] = ROWS[i]->create(device, pair_bench->count, error)))
             return false;
     }
     return true;
@@ -94,10 +92,10 @@ static bool run_variant(struct pair_bench *pair_bench, size_t variant, double *m
                         struct kiln_error *error)
 {
     const float softening_square = 1e-4f;
-    if (is_splat(variant))
-        return kiln_force_splat_run(pair_bench->splats[variant - KILN_SIMD_COUNT],
-                                    pair_bench->sources, pair_bench->count, softening_square, ms,
-                                    error);
+    if (is_in_gl(variant))
+        return ROWS[variant - KILN_SIMD_COUNT]->run(pair_bench->ways[variant - KILN_SIMD_COUNT],
+                                                    pair_bench->sources, pair_bench->count,
+                                                    softening_square, ms, error);
     struct kiln_gravity gravity = {.sources = pair_bench->sources,
                                    .count = pair_bench->count,
                                    .places = pair_bench->sources,
@@ -114,7 +112,7 @@ static bool run_variant(struct pair_bench *pair_bench, size_t variant, double *m
 
 static bool can_run(const struct pair_bench *pair_bench, size_t variant)
 {
-    return is_splat(variant) ? pair_bench->splats[variant - KILN_SIMD_COUNT] != NULL
+    return is_in_gl(variant) ? pair_bench->ways[variant - KILN_SIMD_COUNT] != NULL
                              : kiln_simd_has((enum kiln_simd)variant);
 }
 
@@ -173,7 +171,7 @@ static bool add_rows(const struct pair_bench *pair_bench, struct kiln_error *err
 {
     for (size_t variant = 0; variant < VARIANTS; variant++) {
         const char *problem =
-            is_splat(variant) ? pair_bench->problems[variant - KILN_SIMD_COUNT] : NULL;
+            is_in_gl(variant) ? pair_bench->problems[variant - KILN_SIMD_COUNT] : NULL;
         char name[32];
         variant_name(variant, name);
         if (pair_bench->samples[variant].count > 0 && !add_row(pair_bench, variant, name, error))
@@ -192,8 +190,10 @@ static bool run_pairs(const struct kiln_bench_run *run, uint32_t count, struct k
     kiln_bench_say(run, "pairs of %u bodies", count);
     const bool ok = set_up(&pair_bench, error) && take_turns(&pair_bench, error) &&
                     add_rows(&pair_bench, error);
-    for (int i = 0; i < SPLATS; i++)
-        kiln_force_splat_destroy(&pair_bench.splats[i]);
+    for (int i = 0; i < ROW_COUNT; i++) {
+        if (pair_bench.ways[i])
+            ROWS[i]->destroy(pair_bench.ways[i]);
+    }
     free(pair_bench.samples);
     free(pair_bench.accelerations);
     free(pair_bench.sources);

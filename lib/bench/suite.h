@@ -12,12 +12,7 @@ struct kiln_suite_row {
     bool (*run)(const struct kiln_bench_run *run, struct kiln_error *error);
 };
 
-bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *error);
-bool kiln_suite_figure_4_5(const struct kiln_bench_run *run, struct kiln_error *error);
-bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *error);
-bool kiln_suite_sizes(const struct kiln_bench_run *run, struct kiln_error *error);
-bool kiln_suite_table_1(const struct kiln_bench_run *run, struct kiln_error *error);
-bool kiln_suite_table_2(const struct kiln_bench_run *run, struct kiln_error *error);
+/* bench/papers/papers.h declares the suites of the papers. */
 bool kiln_suite_seed(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *error);
@@ -27,7 +22,6 @@ bool kiln_suite_balls(const struct kiln_bench_run *run, struct kiln_error *error
 bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error);
-bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_threads(const struct kiln_bench_run *run, struct kiln_error *error);
@@ -35,8 +29,6 @@ bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *erro
 
 /* Adds the part of the suite `gravity` that measures how well bodies keep their energy. */
 bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error);
-
-#define KILN_UBERFLOW_SOURCE "UberFlow 2004, ATI 9800 Pro"
 
 /* Measures a scene of the caller: whole frames, then the techniques of each stage. */
 bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error);

@@ -21,8 +21,9 @@ BEGIN {
     # A room may have a folder papers/, with techniques that exist for comparison with the papers that describe
     # them. Of the files outside of such folders, only those below may use it, and they have its techniques as
     # rows of a table.
+    tables["lib/bench/papers"] = "lib/bench/bench.c lib/bench/gravity.c"
     tables["lib/sim/step/papers"] = "lib/sim/step/simulate.c"
-    tables["lib/sort/papers"] = "lib/sort/sort.c lib/bench/sort_timer.c"
+    tables["lib/sort/papers"] = "lib/sort/sort.c"
 }
 
 # Returns the room of a path: "draw/light" for "draw/light/smoke.c", "base" for "base/error.h",

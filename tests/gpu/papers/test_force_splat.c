@@ -1,11 +1,11 @@
 /* Checks the gravity of bodies that is summed by force splatting, which is additive blending on the
- * device (lib/bench/force_splat.c; Drone 2007, 7.4.3.1), and gravity that is summed in a fixed
- * order, as the simulation does it, against sums in double precision. If this fails, the benchmark
- * compares the simulation with a technique that computes something else. */
+ * device (lib/bench/papers/force_splat.c; Drone 2007, 7.4.3.1), and gravity that is summed in a
+ * fixed order, as the simulation does it, against sums in double precision. If this fails, the
+ * benchmark compares the simulation with a technique that computes something else. */
 #include <stddef.h>
 #include <stdint.h>
 
-#include "bench/force_splat.h"
+#include "bench/papers/force_splat.h"
 #include "shared/interact_gravity.h"
 #include "support/balls.h"
 #include "support/cmocka.h"

@@ -1,13 +1,13 @@
-/* Checks each sorting algorithm that kiln's benchmark of sorts measures (lib/bench/sort_timer.c):
- * its result must be the indices of the keys in ascending order of the keys. If this fails, the
- * benchmark reports the time of an algorithm that does not sort. */
+/* Checks each sorting algorithm that kiln's benchmark of sorts measures
+ * (lib/bench/papers/sort_timer.c): its result must be the indices of the keys in ascending order of
+ * the keys. If this fails, the benchmark reports the time of an algorithm that does not sort. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench/bitonic_field.h"
-#include "bench/sort_timer.h"
+#include "bench/papers/bitonic_field.h"
+#include "bench/papers/sort_timer.h"
 #include "sort/pairs.h"
 #include "support/cmocka.h"
 #include "support/device.h"

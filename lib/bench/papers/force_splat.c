@@ -3,16 +3,17 @@
  * bodies by the source, and blending adds them up (Drone 2007, figure 3). The paper adds up forces
  * and divides by the mass when it moves a body; here accelerations are added up, since bodies may
  * have no mass. */
-#include "bench/force_splat.h"
+#include "bench/papers/force_splat.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "bench/papers/papers.h"
 #include "gpu/image.h"
 #include "gpu/program.h"
-#include "shared/bench_layout.h"
+#include "shared/papers/bench_layout.h"
 
 enum { ROW = 128 }; /* texels in a row of the textures */
 
@@ -37,11 +38,11 @@ struct kiln_force_splat *kiln_force_splat_create(struct kiln_device *device, GLe
     kiln_image_init(&splat->bodies, device, ROW, rows, GL_RGBA32F, "bodies");
     kiln_image_init(&splat->forces, device, ROW, rows, format, "forces");
     glGenVertexArrays(1, &splat->vertex_array);
-    splat->program =
-        kiln_program_create(device,
-                            &(struct kiln_program_params){.vertex = "bench/force_splat.vert",
-                                                          .fragment = "bench/force_splat.frag"},
-                            error);
+    splat->program = kiln_program_create(
+        device,
+        &(struct kiln_program_params){.vertex = "bench/papers/force_splat.vert",
+                                      .fragment = "bench/papers/force_splat.frag"},
+        error);
     if (!splat->program || !kiln_framebuffer_init(&splat->framebuffer, device, targets, 1, error))
         kiln_force_splat_destroy(&splat);
     return splat;
@@ -97,3 +98,33 @@ const float4 *kiln_force_splat_sums(struct kiln_force_splat *splat, struct kiln_
 {
     return (const float4 *)kiln_image_host(&splat->forces, KILN_READ, error);
 }
+
+static void *create_32(struct kiln_device *device, uint32_t most, struct kiln_error *error)
+{
+    return kiln_force_splat_create(device, GL_RGBA32F, most, error);
+}
+
+static void *create_16(struct kiln_device *device, uint32_t most, struct kiln_error *error)
+{
+    return kiln_force_splat_create(device, GL_RGBA16F, most, error);
+}
+
+static void destroy(void *way)
+{
+    struct kiln_force_splat *splat = way;
+    kiln_force_splat_destroy(&splat);
+}
+
+static bool run(void *way, const float4 *sources, uint32_t count, float softening_square,
+                double *ms, struct kiln_error *error)
+{
+    return kiln_force_splat_run(way, sources, count, softening_square, ms, error);
+}
+
+/* With more bodies than these, llvmpipe would blend for seconds in each turn. */
+enum { MOST_IN_SOFTWARE = 4096 };
+
+const struct kiln_gravity_row kiln_gravity_splats_32_row = {"splats, RGBA32F", MOST_IN_SOFTWARE,
+                                                            create_32, destroy, run};
+const struct kiln_gravity_row kiln_gravity_splats_16_row = {"splats, RGBA16F", MOST_IN_SOFTWARE,
+                                                            create_16, destroy, run};

@@ -8,7 +8,7 @@
 // variant: COMPUTED=1
 // variant: PASSED=1
 // variant: PASSED=1 PACKED=1
-#include "shared/bench_layout.h"
+#include "shared/papers/bench_layout.h"
 #include "sort/index.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;

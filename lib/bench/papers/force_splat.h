@@ -1,7 +1,7 @@
 /* Computes gravity by splatting forces (Drone 2007, 7.4.2 and 7.4.3.1), for tests and benchmarks
  * only. No state of a simulation depends on sums of the blending unit. */
-#ifndef KILN_BENCH_FORCE_SPLAT_H
-#define KILN_BENCH_FORCE_SPLAT_H
+#ifndef KILN_BENCH_PAPERS_FORCE_SPLAT_H
+#define KILN_BENCH_PAPERS_FORCE_SPLAT_H
 
 #include "gpu/framebuffer.h"
 #include "shared/platform.h"

@@ -2,12 +2,12 @@
  * invocation, so a pass reads one buffer and writes another; then the two change places. For the
  * variants whose constants are passed in, a table has a word for each column and each row of each
  * pass. */
-#include "bench/bitonic_field.h"
+#include "bench/papers/bitonic_field.h"
 
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "shared/bench_layout.h"
+#include "shared/papers/bench_layout.h"
 
 /* Bits of a word of the tables. */
 enum { PARTNER_BEFORE = 1, TAKE_GREATER = 2 };
@@ -162,8 +162,8 @@ struct kiln_bitonic_field *kiln_bitonic_field_create(struct kiln_device *device,
     field->constants = constants;
     kiln_buffer_init(&field->other, device, 0, "other sort pairs");
     kiln_buffer_init(&field->table, device, 0, "comparators");
-    const struct kiln_network_kernel kernel = {"bench/bitonic_field.comp", defines[constants],
-                                               &field->program};
+    const struct kiln_network_kernel kernel = {"bench/papers/bitonic_field.comp",
+                                               defines[constants], &field->program};
     if (!kiln_network_init(&field->network, device, sort_padded, field, error) ||
         !kiln_network_programs(device, &kernel, 1, error))
         kiln_bitonic_field_destroy(&field);

@@ -1,8 +1,8 @@
 /* Sorts by bitonic sort as UberFlow compares it (4.3.2, 4.3.3 and table 1): each pass is a kernel
  * over a field of pairs in rows. Three variants differ by how the comparator's constants reach the
  * kernel. All sort like technique `bitonic`; they exist to be measured. */
-#ifndef KILN_BENCH_BITONIC_FIELD_H
-#define KILN_BENCH_BITONIC_FIELD_H
+#ifndef KILN_BENCH_PAPERS_BITONIC_FIELD_H
+#define KILN_BENCH_PAPERS_BITONIC_FIELD_H
 
 #include "sort/network.h"
 

@@ -1,12 +1,12 @@
 /* Times one sort of given keys by one technique. Before the clock starts, the pairs and the list
  * are written and lie where the technique runs. */
-#include "bench/sort_timer.h"
+#include "bench/papers/sort_timer.h"
 
 #include <stdlib.h>
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "bench/bitonic_field.h"
+#include "bench/papers/bitonic_field.h"
 #include "sort/bitonic.h"
 #include "sort/pairs.h"
 #include "sort/papers/oddeven.h"

@@ -1,7 +1,7 @@
 /* Times sorts of given keys for benchmarks: by the techniques of the stage `sort`, and by the
  * variants of bitonic sorting that UberFlow's table 1 compares. */
-#ifndef KILN_BENCH_SORT_TIMER_H
-#define KILN_BENCH_SORT_TIMER_H
+#ifndef KILN_BENCH_PAPERS_SORT_TIMER_H
+#define KILN_BENCH_PAPERS_SORT_TIMER_H
 
 #include "base/thread.h"
 #include "gpu/device.h"

@@ -2,7 +2,7 @@
  * numbers behind its figures, so the notes of the tables give the statements of its text. */
 #include <math.h>
 
-#include "bench/suite.h"
+#include "bench/papers/papers.h"
 
 static const char SCENE[] = "fire_beam.yaml";
 

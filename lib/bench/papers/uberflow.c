@@ -1,7 +1,7 @@
 /* Runs the suite `table2` of `kiln bench`, which measures table 2 of UberFlow (Kipfer, Segal and
  * Westermann 2004). The paper's texture of n x n particles is n^2 particles here; both count frames
  * a second. */
-#include "bench/suite.h"
+#include "bench/papers/papers.h"
 
 static const char SCENE[] = "bench/cloud.yaml";
 

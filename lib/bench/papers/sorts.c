@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "bench/sort_timer.h"
-#include "bench/suite.h"
+#include "bench/papers/papers.h"
+#include "bench/papers/sort_timer.h"
 #include "shared/random.h"
 
 /* Numbers of rows of the last entrants. These sort packed pairs within sets of that many rows

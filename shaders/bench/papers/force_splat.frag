@@ -1,7 +1,7 @@
 /* Computes the acceleration that the body of a quad gives to the body of a texel. It is softened as
  * in shared/interact_gravity.h, which has its own arithmetic. Blending sums the accelerations of
  * all quads (Drone 2007, 7.4.3.1). */
-#include "shared/bench_layout.h"
+#include "shared/papers/bench_layout.h"
 
 layout(binding = 0) uniform sampler2D bodies; /* place, m, and strength, m/s^2 at 1 m */
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "bench/suite.h"
+#include "bench/papers/papers.h"
 
 /* Each entry is a combination of techniques for simulating, sorting and drawing. The thesis
  * compares the combinations that have a published name. */
