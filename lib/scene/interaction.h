@@ -16,7 +16,8 @@ enum kiln_interaction_kind {
 
 enum kiln_contact_mode {
     KILN_CONTACT_EXACT,     /* finds every pair that touches */
-    KILN_CONTACT_STAGGERED, /* finds pairs as the paper does: shared/interact_staggered.h */
+    KILN_CONTACT_STAGGERED, /* finds pairs as the paper does: shared/papers/interact_staggered.h */
+    KILN_CONTACT_MODES
 };
 
 /* How the particles of a flock steer. Values have the clock constant or time. */

@@ -3,8 +3,8 @@
  * in order of their cells.
  *
  * In GLSL the functions read these as globals, in C through pointers. CROWD_PARAM and CROWD pass
- * them on, and CROWD_KEYS is their VALUE_KEYS. INTERACT(x), BODY(i), CELL_END(cell), PARTNER(i) and
- * ORDER(i) name them; TURNING(i) has the words of a body's spin (shared/spin.h). */
+ * them on, and CROWD_KEYS is their VALUE_KEYS. INTERACT(x), BODY(i), CELL_END(cell) and PARTNER(i)
+ * name them; TURNING(i) has the words of a body's spin (shared/spin.h). */
 #ifndef KILN_SHARED_INTERACT_LAYOUT_H
 #define KILN_SHARED_INTERACT_LAYOUT_H
 
@@ -75,7 +75,6 @@ struct kiln_body {
 #define TURNING(i)     bodies[interact_params.used + (i)].position_radius
 #define CELL_END(cell) cell_ends[cell]
 #define PARTNER(i)     partners[i]
-#define ORDER(i)       body_order[i]
 #else
 struct kiln_crowd {
     const struct kiln_interact_params *params;
@@ -83,7 +82,7 @@ struct kiln_crowd {
     const struct kiln_body *bodies;
     const uint *cell_ends; /* index behind the last body of each cell */
     const uint *partners;
-    const uint *order; /* order of the second grid, as in stagger_find */
+    const uint *order; /* a second order of the bodies, for ways to find partners that need one */
 };
 #define CROWD          crowd,
 #define CROWD_PARAM    const struct kiln_crowd *crowd,
@@ -93,7 +92,6 @@ struct kiln_crowd {
 #define TURNING(i)     crowd->bodies[crowd->params->used + (i)].position_radius
 #define CELL_END(cell) crowd->cell_ends[cell]
 #define PARTNER(i)     crowd->partners[i]
-#define ORDER(i)       crowd->order[i]
 #endif
 
 #endif

@@ -60,16 +60,13 @@
 #define INTERACT_BIND_SECOND   2 /* bodies after a round */
 #define INTERACT_BIND_CELLS    3
 #define INTERACT_BIND_PARTNERS 4
-#define INTERACT_BIND_ENTRIES  6 /* entries of the two grids, which are sorted */
-#define INTERACT_BIND_ORDER    7 /* order of the second grid */
+#define INTERACT_BIND_ENTRIES  6 /* scratch memory, 32 bytes a body */
 #define INTERACT_BIND_SPINS    8 /* spins of bodies; every device in use has this binding point */
 #define INTERACT_BIND_KEYS     9 /* keys, with KEYS_STORED */
 
-/* Locations of uniforms of these kernels. */
+/* Locations of uniforms of these kernels. shared/papers/interact_layout.h has more, and one more
+ * block. */
 #define INTERACT_AT_CELL_COUNT     0
-#define INTERACT_AT_ENTRY_COUNT    1
-#define INTERACT_AT_RUN            2
-#define INTERACT_AT_DISTANCE       3
 #define INTERACT_AT_IS_LATER_ROUND 4
 #define INTERACT_AT_FIRST_SOURCE   5
 #define INTERACT_AT_END_SOURCE     6

@@ -22,6 +22,7 @@ BEGIN {
     # them. Of the files outside of such folders, only those below may use it, and they have its techniques as
     # rows of a table.
     tables["lib/bench/papers"] = "lib/bench/bench.c lib/bench/gravity.c"
+    tables["lib/sim/crowd/papers"] = "lib/sim/crowd/interact.c"
     tables["lib/sim/step/papers"] = "lib/sim/step/simulate.c"
     tables["lib/sort/papers"] = "lib/sort/sort.c"
 }

@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "shared/interact_staggered.h"
+#include "shared/papers/interact_staggered.h"
 #include "sim/crowd/interact.h"
 #include "support/balls.h"
 #include "support/cmocka.h"

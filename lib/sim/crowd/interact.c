@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "shared/interact_speeds.h"
-#include "sim/crowd/interact_sort.h"
+#include "sim/crowd/papers/papers.h"
 
 static_assert(sizeof(struct kiln_interact_params) == 288, "std140");
 static_assert(offsetof(struct kiln_interact_params, spins) == 264, "std140");
@@ -29,8 +29,19 @@ static const float CELL_SLACK = 1.0f + 1.0f / 64.0f;
  * the part of a width that two particles may overlap unnoticed without a warning. */
 static const float MOST_AHEAD = 2.0f, UNSEEN = 0.1f;
 
-/* The size of struct kiln_interact_entry on the host, and of a uvec4 in GL. */
+/* The size of an entry of a body, a uvec4 in GL. */
 enum { ENTRY_BYTES = 16 };
+
+/* The ways to find the partners of bodies that collide. */
+static const struct kiln_contact_row *const CONTACTS[KILN_CONTACT_MODES] = {
+    [KILN_CONTACT_EXACT] = &kiln_contact_exact_row,
+    [KILN_CONTACT_STAGGERED] = &kiln_contact_staggered_row,
+};
+
+const struct kiln_contact_row *kiln_contact_row(enum kiln_contact_mode mode)
+{
+    return CONTACTS[mode];
+}
 
 /* The hash table of cells is sparse, so that few entries hold particles of different places, and
  * takes no more than 64 MiB. */
@@ -236,9 +247,7 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
     kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");
     kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),
                      "order of a grid");
-    kiln_buffer_init(&interact->counts, NULL,
-                     (size_t)KILN_SORT_STRETCHES * KILN_SORT_DIGITS * sizeof(uint32_t),
-                     "counts of digits");
+    kiln_buffer_init(&interact->contact_scratch, NULL, 0, "scratch of contacts");
     kiln_buffer_init(&interact->accelerations, NULL,
                      ((size_t)largest + KILN_GRAVITY_BLOCK) * sizeof(float3), "accelerations");
     kiln_buffer_init(&interact->block, device, sizeof(struct kiln_interact_params),
@@ -263,12 +272,18 @@ void kiln_interact_finish(struct kiln_interact *interact)
     kiln_buffer_finish(&interact->partners);
     kiln_buffer_finish(&interact->entries);
     kiln_buffer_finish(&interact->order);
-    kiln_buffer_finish(&interact->counts);
+    kiln_buffer_finish(&interact->contact_scratch);
     kiln_buffer_finish(&interact->accelerations);
     kiln_buffer_finish(&interact->block);
     for (size_t i = 0; i < KILN_INTERACT_KERNELS; i++) {
         if (interact->programs[i])
             glDeleteProgram(interact->programs[i]);
+    }
+    for (size_t mode = 0; mode < KILN_CONTACT_MODES; mode++) {
+        for (size_t i = 0; i < KILN_CONTACT_PROGRAMS; i++) {
+            if (interact->contact_programs[mode][i])
+                glDeleteProgram(interact->contact_programs[mode][i]);
+        }
     }
     *interact = (struct kiln_interact){.device = NULL};
 }
@@ -324,8 +339,7 @@ static bool find_ahead(struct kiln_interact *interact, struct kiln_interact_work
     if (!work->collides)
         return true;
     uint32_t bounds[SPEEDS_BOUNDS] = {0};
-    /* the staggered grids use present positions alone */
-    if (work->mode == KILN_CONTACT_STAGGERED) {
+    if (!kiln_contact_row(work->mode)->looks_ahead) {
         foresee(interact, work, 0.0f);
         return true;
     }

@@ -10,18 +10,12 @@
 #include "sim/crowd/gravity.h"
 #include "sim/world/params.h"
 
-/* The kernels in the order in which they run. */
+/* The kernels in the order in which they run. Those that sort bodies and find partners for
+ * collisions are in sim/crowd/contact_row.h. */
 enum kiln_interact_kernel {
     KILN_INTERACT_SPEEDS,
-    KILN_INTERACT_COUNT,
     KILN_INTERACT_SCAN,
     KILN_INTERACT_PLACE,
-    KILN_INTERACT_FIND,
-    KILN_INTERACT_COUNT_STAGGERED,
-    KILN_INTERACT_BITONIC,
-    KILN_INTERACT_ORDER,
-    KILN_INTERACT_ORDER_SECOND,
-    KILN_INTERACT_FIND_STAGGERED,
     KILN_INTERACT_ANSWER,
     KILN_INTERACT_PUSH,
     KILN_INTERACT_SOURCES,
@@ -31,6 +25,15 @@ enum kiln_interact_kernel {
     KILN_INTERACT_FLOCK_STEER,
     KILN_INTERACT_KERNELS
 };
+
+/* The source of a kernel. */
+struct kiln_interact_file {
+    const char *file, *defines;
+    bool counts_around; /* on software GL, MOST_AROUND is defined (interact_find.comp) */
+};
+
+/* The most kernels of a way to find partners. */
+enum { KILN_CONTACT_PROGRAMS = 5 };
 
 /* Describes the interactions of a system in a step. */
 struct kiln_interact_work {
@@ -56,18 +59,18 @@ struct kiln_interact {
     struct kiln_buffer bodies, second;
     struct kiln_buffer cells;    /* uint32_t, several a particle */
     struct kiln_buffer partners; /* uint32_t, one a body */
-    /* staggered: entries that are sorted; gravity: two halves */
-    struct kiln_buffer entries;
+    struct kiln_buffer entries;  /* two halves, with 16 bytes a body in each */
     /* gravity: start of the second half; the first has the sources, the second the targets */
     uint32_t half;
     struct kiln_buffer order;                 /* uint32_t, two a body */
-    struct kiln_buffer counts;                /* staggered, on the host: counts of a sort */
+    struct kiln_buffer contact_scratch;       /* on the host, for the way to find partners */
     struct kiln_buffer accelerations;         /* gravity on the host: float3, one a slot */
     const struct kiln_gravity_loops *gravity; /* loops of gravity for this processor, on the host */
     const struct kiln_flock_loops *flock;
     /* only in GL: */
     struct kiln_buffer block;               /* struct kiln_interact_params */
     GLuint programs[KILN_INTERACT_KERNELS]; /* 0: the scene does not use the kernel */
+    GLuint contact_programs[KILN_CONTACT_MODES][KILN_CONTACT_PROGRAMS]; /* as `programs` */
     uint32_t group_size;
     bool spins; /* true: the particles of some system spin */
 
@@ -91,7 +94,7 @@ bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_
 /* Returns the first warning about the steps so far; NULL: none. The interact owns the text. */
 const char *kiln_interact_warning(struct kiln_interact *interact);
 
-/* ---- shared by interact_cpu.c and interact_gl.c ---------------------------------------------- */
+/* ---- shared by the files of this folder ------------------------------------------------------ */
 
 /* Returns the number of entries to allocate for `count`: a power of two, at least 64. */
 uint32_t kiln_interact_entries(uint32_t count);
@@ -109,6 +112,20 @@ bool kiln_interact_cpu(struct kiln_interact *interact, const struct kiln_interac
 
 bool kiln_interact_flock_cpu(struct kiln_interact *interact, const struct kiln_interact_work *work,
                              struct kiln_pool *pool, struct kiln_error *error);
+
+/* Binds a buffer as a storage block. */
+bool kiln_interact_bind(GLuint at, struct kiln_buffer *buffer, enum kiln_access access,
+                        struct kiln_error *error);
+
+/* Runs a program over count slots, bodies or pairs. */
+void kiln_interact_run(const struct kiln_interact *interact, GLuint program, uint32_t count);
+
+/* Sets the words of the first `cells` cells to 0. */
+void kiln_interact_empty_cells(const struct kiln_interact *interact, uint32_t cells);
+
+/* Sorts the bodies into cells; the program counts those of each cell. */
+void kiln_interact_gl_into_cells(const struct kiln_interact *interact,
+                                 const struct kiln_interact_params *params, GLuint count);
 
 bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error);
 bool kiln_interact_gl(struct kiln_interact *interact, const struct kiln_interact_work *work,

@@ -5,7 +5,7 @@
 
 #include "shared/interact_gravity.h"
 #include "shared/interact_speeds.h"
-#include "shared/interact_staggered.h"
+#include "sim/crowd/contact_row.h"
 #include "sim/crowd/interact_crowd.h"
 
 enum { BODIES_AT_A_TIME = 512 };
@@ -56,23 +56,6 @@ bool kiln_interact_cpu_speeds(struct kiln_interact *interact, const struct kiln_
 }
 
 /* ---- collisions ------------------------------------------------------------------------------ */
-
-static void find(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    struct kiln_interact_crowd *crowd = context;
-    uint32_t met = 0;
-    for (size_t i = begin; i < end; i++) {
-        if (crowd->later && crowd->partners[i] == INTERACT_NOBODY)
-            continue;
-        const uint32_t partner = crowd->staggered
-                                     ? stagger_find(&crowd->view, (uint32_t)i, crowd->count)
-                                     : contact_find(&crowd->view, (uint32_t)i);
-        crowd->partners[i] = crowd->later ? contact_later(partner) : partner;
-        met += partner != INTERACT_NOBODY;
-    }
-    atomic_fetch_add(&crowd->met, met);
-}
 
 static void answer(void *context, size_t begin, size_t end, uint32_t worker)
 {
@@ -131,17 +114,10 @@ static bool begin(struct kiln_interact_crowd *crowd, struct kiln_interact *inter
         .cell_ends = kiln_buffer_host(&interact->cells, KILN_READ_WRITE, error),
         .partners = kiln_buffer_host(&interact->partners, KILN_READ_WRITE, error),
         .order = kiln_buffer_host(&interact->order, KILN_READ_WRITE, error),
-        .staggered = work->mode == KILN_CONTACT_STAGGERED,
     };
     if (!records || !pushes || !crowd->bodies || !crowd->after || !crowd->cell_ends ||
         !crowd->partners || !crowd->order)
         return false;
-    if (crowd->staggered) {
-        crowd->entries = kiln_buffer_host(&interact->entries, KILN_READ_WRITE, error);
-        crowd->counts = kiln_buffer_host(&interact->counts, KILN_READ_WRITE, error);
-        if (!crowd->entries || !crowd->counts)
-            return false;
-    }
     if (params->spins) {
         crowd->spins = kiln_buffer_host(&pool->spins, KILN_READ_WRITE, error);
         if (!crowd->spins)
@@ -162,18 +138,17 @@ static bool begin(struct kiln_interact_crowd *crowd, struct kiln_interact *inter
 static bool collide(struct kiln_interact *interact, const struct kiln_interact_work *work,
                     struct kiln_pool *pool, struct kiln_error *error)
 {
+    const struct kiln_contact_row *row = kiln_contact_row(work->mode);
     struct kiln_interact_crowd crowd;
     if (!begin(&crowd, interact, work, pool, error))
         return false;
     memset(crowd.pushes, 0, (size_t)work->params.used * 2 * sizeof *crowd.pushes);
-    if (crowd.staggered)
-        kiln_interact_into_grids(&crowd);
-    else
-        kiln_interact_into_cells(&crowd);
+    if (!row->sort(&crowd, interact, error))
+        return false;
     for (uint32_t round = 0; round < work->rounds; round++) {
         atomic_store(&crowd.met, 0);
         crowd.later = round > 0;
-        kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, find, &crowd);
+        kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, row->find, &crowd);
         if (atomic_load(&crowd.met) == 0) /* no body has a partner, so further rounds would change
                                            * nothing */
             break;

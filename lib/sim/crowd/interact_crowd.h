@@ -5,9 +5,9 @@
 
 #include <stdatomic.h>
 
+#include "shared/interact_collide.h"
 #include "shared/spin.h"
 #include "sim/crowd/interact.h"
-#include "sim/crowd/interact_sort.h"
 
 struct kiln_interact_crowd {
     struct kiln_crowd view;
@@ -15,21 +15,36 @@ struct kiln_interact_crowd {
     const struct kiln_particle *records; /* records of the system */
     struct kiln_body *bodies, *after;
     uint32_t *cell_ends, *partners, *order;
-    struct kiln_interact_entry *entries; /* entries of the two staggered grids, as are the counts */
-    uint32_t *counts;
     float4 *pushes;          /* pushes of the system */
     struct kiln_spin *spins; /* spins of the system; NULL unless its particles spin */
     uint32_t count;          /* number of bodies */
-    bool staggered;
-    bool later;      /* true in all rounds but the first */
-    atomic_uint met; /* number of bodies that have a partner */
+    bool later;              /* true in all rounds but the first */
+    atomic_uint met;         /* number of bodies that have a partner */
 };
 
 /* Sorts bodies into cells. Fills bodies and count, and cell_ends with the index behind each cell's
  * last body; order is scratch memory. */
 void kiln_interact_into_cells(struct kiln_interact_crowd *crowd);
 
-/* Sorts bodies into the two staggered grids: fills bodies, count and order. */
-void kiln_interact_into_grids(struct kiln_interact_crowd *crowd);
+/* Makes body number `at` from a slot of the system. */
+static inline void crowd_put_body(struct kiln_interact_crowd *crowd, uint32_t at, uint32_t slot)
+{
+    const struct kiln_interact_params *params = crowd->view.params;
+    crowd->bodies[at] = body_of(&crowd->view, crowd->records[slot], slot);
+    if (params->spins)
+        crowd->bodies[params->used + at].position_radius = crowd->spins[slot].rate;
+}
+
+/* Returns whether a body has no part in the rounds after the first. */
+static inline bool crowd_sits_out(const struct kiln_interact_crowd *crowd, size_t body)
+{
+    return crowd->later && crowd->partners[body] == INTERACT_NOBODY;
+}
+
+/* Notes the partner of a body in this round. */
+static inline void crowd_note(struct kiln_interact_crowd *crowd, size_t body, uint32_t partner)
+{
+    crowd->partners[body] = crowd->later ? contact_later(partner) : partner;
+}
 
 #endif

@@ -6,35 +6,25 @@
 #include "gpu/program.h"
 #include "shared/interact_speeds.h"
 #include "shared/limits.h"
-#include "sim/crowd/interact.h"
+#include "sim/crowd/contact_row.h"
 
 /* Bits of used_for: the kinds of interaction that a kernel serves. */
-enum { EXACT_MODE = 1, STAGGERED_MODE = 2, GRAVITY = 4, FLOCK = 8 };
+enum { COLLIDE = 1, LOOK_AHEAD = 2, GRAVITY = 4, FLOCK = 8 };
 
 static const struct {
-    const char *file, *defines;
+    struct kiln_interact_file source;
     int used_for;
 } KERNELS[KILN_INTERACT_KERNELS] = {
-    [KILN_INTERACT_SPEEDS] = {"sim/crowd/interact_speeds.comp", "", EXACT_MODE},
-    [KILN_INTERACT_COUNT] = {"sim/crowd/interact_count.comp", "", EXACT_MODE},
-    [KILN_INTERACT_SCAN] = {"sim/crowd/interact_scan.comp", "", EXACT_MODE | FLOCK},
-    [KILN_INTERACT_PLACE] = {"sim/crowd/interact_place.comp", "", EXACT_MODE | FLOCK},
-    [KILN_INTERACT_FIND] = {"sim/crowd/interact_find.comp", "", EXACT_MODE},
-    [KILN_INTERACT_COUNT_STAGGERED] = {"sim/crowd/interact_count.comp", "#define STAGGERED 1\n",
-                                       STAGGERED_MODE},
-    [KILN_INTERACT_BITONIC] = {"sim/crowd/interact_bitonic.comp", "", STAGGERED_MODE},
-    [KILN_INTERACT_ORDER] = {"sim/crowd/interact_order.comp", "", STAGGERED_MODE},
-    [KILN_INTERACT_ORDER_SECOND] = {"sim/crowd/interact_order.comp", "#define SECOND 1\n",
-                                    STAGGERED_MODE},
-    [KILN_INTERACT_FIND_STAGGERED] = {"sim/crowd/interact_find.comp", "#define STAGGERED 1\n",
-                                      STAGGERED_MODE},
-    [KILN_INTERACT_ANSWER] = {"sim/crowd/interact_answer.comp", "", EXACT_MODE | STAGGERED_MODE},
-    [KILN_INTERACT_PUSH] = {"sim/crowd/interact_push.comp", "", EXACT_MODE | STAGGERED_MODE},
-    [KILN_INTERACT_SOURCES] = {"sim/crowd/interact_sources.comp", "", GRAVITY},
-    [KILN_INTERACT_GRAVITY_TILES] = {"sim/crowd/interact_gravity.comp", "", GRAVITY},
-    [KILN_INTERACT_COUNT_FLOCK] = {"sim/crowd/interact_count.comp", "#define FLOCK 1\n", FLOCK},
-    [KILN_INTERACT_FLOCK_MEANS] = {"sim/crowd/interact_flock_means.comp", "", FLOCK},
-    [KILN_INTERACT_FLOCK_STEER] = {"sim/crowd/interact_flock.comp", "", FLOCK},
+    [KILN_INTERACT_SPEEDS] = {{"sim/crowd/interact_speeds.comp", ""}, LOOK_AHEAD},
+    [KILN_INTERACT_SCAN] = {{"sim/crowd/interact_scan.comp", ""}, COLLIDE | FLOCK},
+    [KILN_INTERACT_PLACE] = {{"sim/crowd/interact_place.comp", ""}, COLLIDE | FLOCK},
+    [KILN_INTERACT_ANSWER] = {{"sim/crowd/interact_answer.comp", ""}, COLLIDE},
+    [KILN_INTERACT_PUSH] = {{"sim/crowd/interact_push.comp", ""}, COLLIDE},
+    [KILN_INTERACT_SOURCES] = {{"sim/crowd/interact_sources.comp", ""}, GRAVITY},
+    [KILN_INTERACT_GRAVITY_TILES] = {{"sim/crowd/interact_gravity.comp", ""}, GRAVITY},
+    [KILN_INTERACT_COUNT_FLOCK] = {{"sim/crowd/interact_count.comp", "#define FLOCK 1\n"}, FLOCK},
+    [KILN_INTERACT_FLOCK_MEANS] = {{"sim/crowd/interact_flock_means.comp", ""}, FLOCK},
+    [KILN_INTERACT_FLOCK_STEER] = {{"sim/crowd/interact_flock.comp", ""}, FLOCK},
 };
 
 static int uses(const struct kiln_scene *scene)
@@ -44,7 +34,7 @@ static int uses(const struct kiln_scene *scene)
         const struct kiln_interaction *collide =
             kiln_scene_interaction(scene, i, KILN_INTERACT_COLLIDE);
         if (collide)
-            all |= collide->mode == KILN_CONTACT_EXACT ? EXACT_MODE : STAGGERED_MODE;
+            all |= COLLIDE | (kiln_contact_row(collide->mode)->looks_ahead ? LOOK_AHEAD : 0);
         if (kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY))
             all |= GRAVITY;
         if (kiln_scene_interaction(scene, i, KILN_INTERACT_FLOCK))
@@ -56,6 +46,33 @@ static int uses(const struct kiln_scene *scene)
 /* The most bodies that one body may look at on software GL, which silently ends loops after
  * KILN_SOFTWARE_ITERATIONS. The difference is left for the loops over rows of cells. */
 enum { MOST_AROUND = KILN_SOFTWARE_ITERATIONS - 535 };
+
+static GLuint create_program(const struct kiln_interact *interact,
+                             const struct kiln_interact_file *source, struct kiln_error *error)
+{
+    char defines[160], counted[48] = "";
+    if (source->counts_around && interact->device->info.software)
+        snprintf(counted, sizeof counted, "#define MOST_AROUND %uu\n", (unsigned)MOST_AROUND);
+    snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s%s", interact->group_size,
+             source->defines, counted, interact->spins ? "#define SPINS 1\n" : "",
+             kiln_scene_stores_keys(interact->scene) ? "#define KEYS_STORED 1\n" : "");
+    const struct kiln_program_params params = {.compute = source->file, .defines = defines};
+    return kiln_program_create(interact->device, &params, error);
+}
+
+/* Creates the programs of the way in which a system's collisions find partners. */
+static bool create_contact_programs(struct kiln_interact *interact, enum kiln_contact_mode mode,
+                                    struct kiln_error *error)
+{
+    const struct kiln_interact_file *files = kiln_contact_row(mode)->files;
+    GLuint *programs = interact->contact_programs[mode];
+    for (int i = 0; i < KILN_CONTACT_PROGRAMS && files[i].file && !programs[i]; i++) {
+        programs[i] = create_program(interact, &files[i], error);
+        if (!programs[i])
+            return false;
+    }
+    return true;
+}
 
 bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error)
 {
@@ -80,33 +97,34 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
     for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
         if ((used & KERNELS[i].used_for) == 0)
             continue;
-        char defines[160], counted[48] = "";
-        if (i == KILN_INTERACT_FIND && device->info.software)
-            snprintf(counted, sizeof counted, "#define MOST_AROUND %uu\n", (unsigned)MOST_AROUND);
-        snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s%s",
-                 interact->group_size, KERNELS[i].defines, counted,
-                 interact->spins ? "#define SPINS 1\n" : "",
-                 kiln_scene_stores_keys(interact->scene) ? "#define KEYS_STORED 1\n" : "");
-        interact->programs[i] = kiln_program_create(
-            device, &(struct kiln_program_params){.compute = KERNELS[i].file, .defines = defines},
-            error);
+        interact->programs[i] = create_program(interact, &KERNELS[i].source, error);
         if (!interact->programs[i])
+            return false;
+    }
+    for (uint32_t i = 0; i < interact->scene->system_count; i++) {
+        const struct kiln_interaction *collide =
+            kiln_scene_interaction(interact->scene, i, KILN_INTERACT_COLLIDE);
+        if (collide && !create_contact_programs(interact, collide->mode, error))
             return false;
     }
     return true;
 }
 
-/* Dispatches a kernel for count slots, bodies or pairs. */
-static void run(const struct kiln_interact *interact, enum kiln_interact_kernel kernel,
-                uint32_t count)
+void kiln_interact_run(const struct kiln_interact *interact, GLuint program, uint32_t count)
 {
-    glUseProgram(interact->programs[kernel]);
+    glUseProgram(program);
     kiln_device_dispatch(interact->device, count, interact->group_size);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-static bool bind(GLuint at, struct kiln_buffer *buffer, enum kiln_access access,
-                 struct kiln_error *error)
+static void run(const struct kiln_interact *interact, enum kiln_interact_kernel kernel,
+                uint32_t count)
+{
+    kiln_interact_run(interact, interact->programs[kernel], count);
+}
+
+bool kiln_interact_bind(GLuint at, struct kiln_buffer *buffer, enum kiln_access access,
+                        struct kiln_error *error)
 {
     const GLuint gl = kiln_buffer_gl(buffer, access, error);
     if (gl)
@@ -135,20 +153,20 @@ static bool bind_all(struct kiln_interact *interact, const struct kiln_interact_
         glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, values);
     const enum kiln_access change = KILN_READ_WRITE;
     const bool sorts = work->collides || work->flocks;
-    if (interact->spins && !bind(INTERACT_BIND_SPINS, &pool->spins, change, error))
+    if (interact->spins && !kiln_interact_bind(INTERACT_BIND_SPINS, &pool->spins, change, error))
         return false;
-    return bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
-           bind(SIM_BIND_PUSHES, &interact->pushes, change, error) &&
-           (!sorts || (bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&
-                       bind(INTERACT_BIND_PARTNERS, &interact->partners, change, error) &&
-                       bind(INTERACT_BIND_BODIES, &interact->bodies, change, error) &&
-                       bind(INTERACT_BIND_SECOND, &interact->second, change, error))) &&
-           ((work->mode == KILN_CONTACT_EXACT && !work->pulls && !work->flocks) ||
-            (bind(INTERACT_BIND_ENTRIES, &interact->entries, change, error) &&
-             bind(INTERACT_BIND_ORDER, &interact->order, change, error)));
+    return kiln_interact_bind(SIM_BIND_RECORDS, &pool->records, KILN_READ, error) &&
+           kiln_interact_bind(SIM_BIND_PUSHES, &interact->pushes, change, error) &&
+           (!sorts ||
+            (kiln_interact_bind(INTERACT_BIND_CELLS, &interact->cells, change, error) &&
+             kiln_interact_bind(INTERACT_BIND_PARTNERS, &interact->partners, change, error) &&
+             kiln_interact_bind(INTERACT_BIND_BODIES, &interact->bodies, change, error) &&
+             kiln_interact_bind(INTERACT_BIND_SECOND, &interact->second, change, error))) &&
+           ((!work->pulls && !work->flocks) ||
+            kiln_interact_bind(INTERACT_BIND_ENTRIES, &interact->entries, change, error));
 }
 
-static void empty_cells(const struct kiln_interact *interact, uint32_t cells)
+void kiln_interact_empty_cells(const struct kiln_interact *interact, uint32_t cells)
 {
     const GLuint zero = 0;
     glBindBuffer(GL_COPY_WRITE_BUFFER, interact->cells.gl);
@@ -164,7 +182,7 @@ bool kiln_interact_gl_speeds(struct kiln_interact *interact, const struct kiln_i
 {
     if (!bind_all(interact, work, pool, keys, error))
         return false;
-    empty_cells(interact, SPEEDS_BOUNDS);
+    kiln_interact_empty_cells(interact, SPEEDS_BOUNDS);
     run(interact, KILN_INTERACT_SPEEDS, work->params.used);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_READ_BUFFER, interact->cells.gl);
@@ -172,44 +190,16 @@ bool kiln_interact_gl_speeds(struct kiln_interact *interact, const struct kiln_i
     return kiln_device_check(interact->device, "interact", error);
 }
 
-static void sort_into_cells(const struct kiln_interact *interact,
-                            const struct kiln_interact_params *params,
-                            enum kiln_interact_kernel count)
+void kiln_interact_gl_into_cells(const struct kiln_interact *interact,
+                                 const struct kiln_interact_params *params, GLuint count)
 {
-    empty_cells(interact, params->cell_mask + 2);
-    run(interact, count, params->used);
+    kiln_interact_empty_cells(interact, params->cell_mask + 2);
+    kiln_interact_run(interact, count, params->used);
     glUseProgram(interact->programs[KILN_INTERACT_SCAN]);
     glUniform1ui(INTERACT_AT_CELL_COUNT, params->cell_mask + 1);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     run(interact, KILN_INTERACT_PLACE, params->used);
-}
-
-/* Sorts the entries by a bitonic network; `count` is a power of two. */
-static void sort_entries(const struct kiln_interact *interact, uint32_t count)
-{
-    glUseProgram(interact->programs[KILN_INTERACT_BITONIC]);
-    glUniform1ui(INTERACT_AT_ENTRY_COUNT, count);
-    for (uint32_t length = 2; length <= count; length *= 2) {
-        for (uint32_t distance = length / 2; distance > 0; distance /= 2) {
-            glUniform1ui(INTERACT_AT_RUN, length);
-            glUniform1ui(INTERACT_AT_DISTANCE, distance);
-            kiln_device_dispatch(interact->device, count / 2, interact->group_size);
-            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        }
-    }
-}
-
-static void sort_into_grids(const struct kiln_interact *interact,
-                            const struct kiln_interact_params *params)
-{
-    const uint32_t entries = kiln_interact_entries(params->used);
-    empty_cells(interact, params->cell_mask + 1);
-    run(interact, KILN_INTERACT_COUNT_STAGGERED, entries);
-    sort_entries(interact, entries);
-    run(interact, KILN_INTERACT_ORDER, params->used);
-    sort_entries(interact, entries);
-    run(interact, KILN_INTERACT_ORDER_SECOND, params->used);
 }
 
 /* Returns whether each body looked at all others near it. On software GL a loop may have ended
@@ -234,22 +224,18 @@ static bool saw_all(const struct kiln_interact *interact, const struct kiln_inte
         work->system, around, (unsigned)MOST_AROUND);
 }
 
-static bool collide(const struct kiln_interact *interact, const struct kiln_interact_work *work,
+static bool collide(struct kiln_interact *interact, const struct kiln_interact_work *work,
                     struct kiln_error *error)
 {
     const struct kiln_interact_params *params = &work->params;
-    const bool exact = work->mode == KILN_CONTACT_EXACT;
-    if (exact)
-        sort_into_cells(interact, params, KILN_INTERACT_COUNT);
-    else
-        sort_into_grids(interact, params);
+    GLuint find = 0;
+    if (!kiln_contact_row(work->mode)->sort_gl(interact, params, &find, error))
+        return false;
     GLuint bodies = interact->bodies.gl, second = interact->second.gl;
     for (uint32_t round = 0; round < work->rounds; round++) {
-        const enum kiln_interact_kernel find =
-            exact ? KILN_INTERACT_FIND : KILN_INTERACT_FIND_STAGGERED;
-        glUseProgram(interact->programs[find]);
+        glUseProgram(find);
         glUniform1ui(INTERACT_AT_IS_LATER_ROUND, round > 0);
-        run(interact, find, params->used);
+        kiln_interact_run(interact, find, params->used);
         run(interact, KILN_INTERACT_ANSWER, params->used);
         const GLuint before = bodies;
         bodies = second;
@@ -293,7 +279,7 @@ static bool pull(struct kiln_interact *interact, const struct kiln_interact_work
 
 static void flock(const struct kiln_interact *interact, const struct kiln_interact_params *params)
 {
-    sort_into_cells(interact, params, KILN_INTERACT_COUNT_FLOCK);
+    kiln_interact_gl_into_cells(interact, params, interact->programs[KILN_INTERACT_COUNT_FLOCK]);
     run(interact, KILN_INTERACT_FLOCK_MEANS, 1);
     run(interact, KILN_INTERACT_FLOCK_STEER, params->used);
 }

@@ -1,7 +1,6 @@
 /* Declares the buffers and parameters of the kernels shaders/sim/crowd/interact_*.comp, which
  * compute the interactions of the particles of a system: collisions, gravity, flocking. Those
- * kernels include it first; interact_scan.comp and interact_bitonic.comp need one buffer each and
- * declare it themselves. lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
+ * kernels include it first; interact_scan.comp needs one buffer and declares it itself. lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
  *
  * A body is a living particle of the system, copied into order of cells. The functions in
  * shared/interact_*.h read these globals by the macros of shared/interact_layout.h, and the host's
@@ -49,8 +48,7 @@ layout(std430, binding = INTERACT_BIND_SECOND) buffer second_block
 layout(std430, binding = INTERACT_BIND_CELLS) buffer cell_block
 {
     /* For each cell of the table: how many bodies it has (interact_count.comp), then where it
-     * begins (interact_scan.comp), then where it ends (interact_place.comp). Collisions in the
-     * staggered mode use only the last cell's word: how many bodies there are. interact_speeds.comp
+     * begins (interact_scan.comp), then where it ends (interact_place.comp). interact_speeds.comp
      * keeps its bounds in the first words, before the cells are filled. interact_find.comp with
      * MOST_AROUND uses the word behind the cells. */
     uint cell_ends[];
@@ -63,15 +61,8 @@ layout(std430, binding = INTERACT_BIND_PARTNERS) buffer partner_block
 
 layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
 {
-    /* In the staggered mode, collisions keep entries here: the key of a cell (high, low word), by
-     * which they are sorted, then a slot or a body. Gravity keeps its sources and sums here, and a
-     * flock its means. */
+    /* Gravity keeps its sources and sums here, and a flock its means. */
     uvec4 entries[];
-};
-
-layout(std430, binding = INTERACT_BIND_ORDER) buffer order_block
-{
-    uint body_order[]; /* order of the second grid, as in stagger_find */
 };
 
 layout(std430, binding = SIM_BIND_PUSHES) buffer push_block
@@ -108,8 +99,15 @@ uint invocation()
     return group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
 }
 
-/* Returns how many bodies the system has. In the staggered mode interact_count.comp has counted
- * them; otherwise this is where the last cell ends, which is known only after
+/* Empties the push of a slot. */
+void empty_push(uint slot)
+{
+    uint at = (interact_params.first_push + slot) * 2u;
+    push_words[at] = float4(0.0f);
+    push_words[at + 1u] = float4(0.0f);
+}
+
+/* Returns how many bodies the system has: where the last cell ends, which is known only after
  * interact_place.comp. */
 uint body_count()
 {

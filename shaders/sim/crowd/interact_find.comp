@@ -1,14 +1,12 @@
-/* Finds each body's closest partner, once a round; with STAGGERED, in two grids as the paper does
- * (shared/interact_staggered.h). MOST_AROUND is for software GL, which ends long loops early:
+/* Finds each body's closest partner, once a round. MOST_AROUND is for software GL, which ends long loops early:
  * bodies with more than MOST_AROUND others around get no partner, and the word behind all cells gets
  * the number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
 // variant:
-// variant: STAGGERED=1
 // variant: KEYS_STORED=1
 // variant: MOST_AROUND=65000u
 #include "sim/crowd/interact.glsl"
 
-#include "shared/interact_staggered.h"
+#include "shared/interact_collide.h"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 
@@ -63,10 +61,6 @@ void main()
         return;
     if (is_later_round != 0u && partners[self] == INTERACT_NOBODY)
         return;
-#ifdef STAGGERED
-    uint partner = stagger_find(self, body_count());
-#else
     uint partner = contact_find(self);
-#endif
     partners[self] = is_later_round != 0u ? contact_later(partner) : partner;
 }

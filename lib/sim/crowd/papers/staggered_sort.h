@@ -1,6 +1,6 @@
-/* Sorts the bodies of a staggered grid (shared/interact_staggered.h) on the host. */
-#ifndef KILN_SIM_CROWD_INTERACT_SORT_H
-#define KILN_SIM_CROWD_INTERACT_SORT_H
+/* Sorts the bodies of a staggered grid (shared/papers/interact_staggered.h) on the host. */
+#ifndef KILN_SIM_CROWD_PAPERS_STAGGERED_SORT_H
+#define KILN_SIM_CROWD_PAPERS_STAGGERED_SORT_H
 
 #include "base/thread.h"
 

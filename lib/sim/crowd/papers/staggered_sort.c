@@ -1,7 +1,7 @@
 /* Sorts the entries of a grid by their cells: a radix sort from the lowest digit, in threads. The
  * entries are cut into ranges. Each range counts its digits, and puts the entries of a digit behind
  * those of earlier ranges. The order is therefore the same for any number of ranges. */
-#include "sim/crowd/interact_sort.h"
+#include "sim/crowd/papers/staggered_sort.h"
 
 #include <assert.h>
 #include <string.h>

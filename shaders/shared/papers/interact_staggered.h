@@ -5,10 +5,17 @@
  * bodies before it and the 8 behind it (as in experiment E4 of the paper) and takes the closest. A
  * partner that is farther away in both orders is missed: across faces of cells other than along z,
  * or where cells are crowded. */
-#ifndef KILN_SHARED_INTERACT_STAGGERED_H
-#define KILN_SHARED_INTERACT_STAGGERED_H
+#ifndef KILN_SHARED_PAPERS_INTERACT_STAGGERED_H
+#define KILN_SHARED_PAPERS_INTERACT_STAGGERED_H
 
 #include "shared/interact_collide.h"
+
+/* In C, the order of the crowd. In GLSL, the buffer of sim/crowd/papers/staggered.glsl. */
+#ifdef GL_core_profile
+#define ORDER(i) body_order[i]
+#else
+#define ORDER(i) crowd->order[i]
+#endif
 
 #define STAGGER_WINDOW 8u
 

@@ -4,9 +4,7 @@
 // variant:
 // variant: SPINS=1
 // variant: SECOND=1
-#include "sim/crowd/interact.glsl"
-
-#include "shared/interact_staggered.h"
+#include "sim/crowd/papers/staggered.glsl"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 

@@ -1,6 +1,6 @@
-/* Runs one pass of a bitonic merge sort over the entries of the staggered mode (UberFlow 2004,
+/* Runs one pass of a bitonic merge sort over the entries of the staggered grids (UberFlow 2004,
  * 4.3.2). Entries are ordered by their cell and then by their slot or body, so no two are equal. */
-#include "shared/limits.h"
+#include "shared/papers/interact_layout.h"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 
