@@ -3,7 +3,6 @@
  * macros of rows are in option/rows.h. A MOTION row decides how particles move, and a LOOK row only
  * how the picture looks (scene/parts.h); a row with TIME may vary over time. */
 #include "asset/geometry/chart.h"
-#include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
 #include "scene/rows.h"
 
@@ -101,7 +100,12 @@ TABLE(animation) = {
     END,
 };
 
-static const char *const colliders[] = {"field", "volume", "depth_maps", NULL};
+static const char *const colliders[] = {
+    [KILN_COLLIDER_FIELD] = "field",
+    [KILN_COLLIDER_VOLUME] = "volume",
+    [KILN_COLLIDER_DEPTH_MAPS] = "depth_maps",
+    NULL,
+};
 static const char *const sides[] = {"one", "two", NULL};
 
 ITEM(direction, vector, .name = "direction", .parts = MOTION, LIMITS(KILN_PLAIN, -FAR, FAR),

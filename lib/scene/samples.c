@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
 #include "asset/geometry/grid_in.h"
 #include "scene/asset_path.h"
+#include "scene/papers/papers.h"
 
 /* Holds the sum while grids are counted. An error points at the key of the largest grid, which is
  * the one to make smaller. */
@@ -95,18 +95,23 @@ float kiln_scene_field_reach(const struct kiln_scene *scene, const struct kiln_o
     return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
 }
 
-/* Counts the samples of a distance field, and refuses a mesh that can have none. */
-static bool count_field(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                        const struct kiln_object *mesh, struct count *count)
+static bool count_field(const struct kiln_scene *scene, const struct kiln_object *mesh,
+                        size_t *samples, struct kiln_error *error)
 {
-    struct kiln_error error = {0};
-    size_t samples = 0;
-    if (!kiln_field_check(mesh->collision_mesh, mesh->file, mesh->cells,
-                          kiln_scene_field_reach(kiln_reader_scene(reader), mesh), &samples,
-                          &error))
-        return kiln_asset_fail(reader, root, path, mesh->file, &error);
-    add(count, samples, path);
-    return true;
+    return kiln_field_check(mesh->collision_mesh, mesh->file, mesh->cells,
+                            kiln_scene_field_reach(scene, mesh), samples, error);
+}
+
+static const struct kiln_mesh_grid FIELD = {.count = count_field};
+
+static const struct kiln_mesh_grid *const MESH_GRIDS[KILN_COLLIDER_KINDS] = {
+    [KILN_COLLIDER_FIELD] = &FIELD,
+    [KILN_COLLIDER_DEPTH_MAPS] = &kiln_mesh_grid_depth_maps,
+};
+
+const struct kiln_mesh_grid *kiln_mesh_grid_of(enum kiln_collider_kind collider)
+{
+    return MESH_GRIDS[collider];
 }
 
 /* Counts the grid of an object. A mesh of collider `volume` has none: its cells are made anew in
@@ -123,12 +128,15 @@ static bool count_object(struct kiln_reader *reader, const struct kiln_node *roo
         add(count, (uint64_t)object->samples[0] * object->samples[1], path);
         return true;
     }
+    const struct kiln_mesh_grid *grid = kiln_mesh_grid_of(object->collider);
+    struct kiln_error error = {0};
+    size_t samples = 0;
+    if (!grid)
+        return true;
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
-    if (object->collider == KILN_COLLIDER_FIELD)
-        return count_field(reader, root, path, object, count);
-    if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
-        add(count, kiln_depth_maps_words(object->depth_direction_count, object->depth_resolution),
-            path);
+    if (!grid->count(kiln_reader_scene(reader), object, &samples, &error))
+        return kiln_asset_fail(reader, root, path, object->file, &error);
+    add(count, samples, path);
     return true;
 }
 

@@ -5,6 +5,21 @@
 
 #include "scene/options.h"
 
+/* What a scene must know of a kind of grids that are made of meshes before the first step, for
+ * particles to collide with. */
+struct kiln_mesh_grid {
+    /* Returns false with KILN_INVALID_INPUT if a grid would take too long to make. NULL: none does.
+     */
+    bool (*check)(const struct kiln_object *mesh, struct kiln_error *error);
+    /* Counts the samples of a grid. Returns false with an error if the mesh can have none. */
+    bool (*count)(const struct kiln_scene *scene, const struct kiln_object *mesh, size_t *samples,
+                  struct kiln_error *error);
+};
+
+/* Returns what a scene must know of the grid of a mesh by its collider; NULL: it has no such grid.
+ */
+const struct kiln_mesh_grid *kiln_mesh_grid_of(enum kiln_collider_kind collider);
+
 /* Reads wind files and fills scene->samples. Refuses faulty files, meshes of which no distance
  * field can be made, and more files or samples than a scene may have. root: as of kiln_validate,
  * whose other checks are done. */

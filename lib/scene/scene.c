@@ -122,16 +122,6 @@ bool kiln_object_is_mesh(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_MESH || object->kind == KILN_OBJECT_TERRAIN;
 }
 
-void kiln_object_depth_directions(const struct kiln_object *mesh,
-                                  float directions[KILN_MAX_DEPTH_DIRECTIONS][3])
-{
-    for (uint32_t i = 0; i < mesh->depth_direction_count; i++) {
-        directions[i][0] = mesh->depth_directions[i].x.constant;
-        directions[i][1] = mesh->depth_directions[i].y.constant;
-        directions[i][2] = mesh->depth_directions[i].z.constant;
-    }
-}
-
 /* Returns how many whole lengths of its clip an animation has gone through at a time, or 0 if it
  * does not repeat. Sets how many seconds of the clip it has gone through in all. */
 static float rounds_of(const struct kiln_animation *animation, float time_s, float *seconds)

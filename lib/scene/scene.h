@@ -301,6 +301,12 @@ enum kiln_collider_kind {
     KILN_COLLIDER_FIELD,      /* with its distance field: closed, moves rigidly */
     KILN_COLLIDER_VOLUME,     /* with planes in a lattice of cells, which are made in each step */
     KILN_COLLIDER_DEPTH_MAPS, /* with all between its fronts and backs, seen from some directions */
+    KILN_COLLIDER_KINDS
+};
+
+enum {
+    KILN_MIN_DEPTH_RESOLUTION = 16, /* least samples along each edge of a depth map */
+    KILN_MAX_DEPTH_RESOLUTION = 256,
 };
 
 enum kiln_sides {
@@ -348,7 +354,7 @@ struct kiln_object {
     enum kiln_sides sides;            /* volume: which sides of its planes are solid */
     /* depth maps: directions of view */
     struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS];
-    uint32_t depth_direction_count, depth_resolution; /* (asset/geometry/depth_maps.h) */
+    uint32_t depth_direction_count, depth_resolution; /* (asset/geometry/papers/depth_maps.h) */
     struct kiln_object_paint paint;                   /* mesh */
     bool collide;
     bool visible;                  /* plane: drawn */
@@ -525,10 +531,6 @@ void kiln_scene_rotation(float3 angles, float columns[3][3]);
 
 /* Returns whether the object is drawn as a mesh. */
 bool kiln_object_is_mesh(const struct kiln_object *object);
-
-/* Computes the directions of the depth maps of a mesh. */
-void kiln_object_depth_directions(const struct kiln_object *mesh,
-                                  float directions[KILN_MAX_DEPTH_DIRECTIONS][3]);
 
 /* Returns how far into its clip, s, a moving mesh is at a clip time; kiln_skin_pose takes it. */
 float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);

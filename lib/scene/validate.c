@@ -9,7 +9,6 @@
 
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
-#include "asset/geometry/depth_maps.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
 #include "scene/instant.h"
@@ -320,18 +319,6 @@ static const char *name_of_axis(const struct kiln_object *object)
     return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 
-static bool check_depth_maps(struct kiln_reader *reader, const struct kiln_node *root,
-                             const char *path, const struct kiln_object *object)
-{
-    struct kiln_error error = {0};
-    float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
-    kiln_object_depth_directions(object, directions);
-    return kiln_depth_maps_check(object->collision_mesh, object->file,
-                                 (const float(*)[3])directions, object->depth_direction_count,
-                                 object->depth_resolution, &error) ||
-           kiln_asset_fail(reader, root, path, object->file, &error);
-}
-
 static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -346,9 +333,11 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
         if (!at_all_keys(scene, &direction, 1, is_not_zero))
             return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
     }
+    struct kiln_error error = {0};
+    const struct kiln_mesh_grid *grid = kiln_mesh_grid_of(mesh->collider);
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.collide", index);
-    return !mesh->collide || mesh->collider != KILN_COLLIDER_DEPTH_MAPS ||
-           check_depth_maps(reader, root, path, mesh);
+    return !mesh->collide || !grid || !grid->check || grid->check(mesh, &error) ||
+           kiln_asset_fail(reader, root, path, mesh->file, &error);
 }
 
 /* Checks a mesh that takes paint. */

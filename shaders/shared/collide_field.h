@@ -22,7 +22,7 @@
 #define COLLIDE_HAS_DEPTH 0
 #else
 #define COLLIDE_HAS_DEPTH 1
-#include "shared/collide_depth.h"
+#include "shared/papers/collide_depth.h"
 #endif
 
 /* Returns whether a collider that is neither a volume nor a depth map is terrain, and not a

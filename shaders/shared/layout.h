@@ -215,8 +215,8 @@ struct kiln_pose {
 
 /* Samples on a lattice in space; GRID_WORD(i) is the i-th word of all grids: see grid.h. For a
  * volume, the lattice is that of its cells, four of which share a VOLUME_WORD: see
- * collide_volume.h. For depth maps (collide_depth.h), size has columns, rows, maps and the first
- * word. */
+ * collide_volume.h. For depth maps (papers/collide_depth.h), size has columns, rows, maps and the
+ * first word. */
 struct kiln_grid {
     float4 origin;    /* m: place of the first sample */
     float4 per_metre; /* samples a metre, along each axis */

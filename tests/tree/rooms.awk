@@ -21,10 +21,14 @@ BEGIN {
     # A room may have a folder papers/, with techniques that exist for comparison with the papers that describe
     # them. Of the files outside of such folders, only those below may use it, and they have its techniques as
     # rows of a table.
+    tables["lib/asset/geometry/papers"] = "" # the folders papers/ of scene and sim/world use it
+    tables["lib/scene/papers"] = "lib/scene/samples.c"
     tables["lib/bench/papers"] = "lib/bench/bench.c lib/bench/gravity.c"
     tables["lib/sim/crowd/papers"] = "lib/sim/crowd/interact.c"
-    tables["lib/sim/step/papers"] = "lib/sim/step/simulate.c"
+    tables["lib/sim/step/papers"] = "lib/sim/step/simulate.c lib/sim/step/slots_touching.h"
+    tables["lib/sim/world/papers"] = "lib/sim/world/grids.c"
     tables["lib/sort/papers"] = "lib/sort/sort.c"
+    tables["shaders/shared/papers"] = "shaders/shared/collide_field.h"
 }
 
 # Returns the room of a path: "draw/light" for "draw/light/smoke.c", "base" for "base/error.h",

@@ -4,6 +4,7 @@
 #ifndef KILN_SIM_STEP_SLOTS_TOUCHING_H
 #define KILN_SIM_STEP_SLOTS_TOUCHING_H
 
+#include "sim/step/papers/touching_depths.h"
 #include "sim/step/slots_block.h"
 
 /* Finds the lanes that may touch a half space, which has no bounding box. If it turns, all lanes
@@ -88,19 +89,6 @@ static inline void find_touching_volume(const struct kiln_sim *sim, struct kiln_
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         float3 from = particle_position(record_at(b, i)), to = kiln_get3(&b->position, i);
         b->touching[i] &= 1u ^ (uint32_t)volume_is_clear(sim, grid, from, to);
-    }
-}
-
-/* Unmarks lanes that stay on one side of the mesh's depth maps. */
-static inline void find_touching_depths(const struct kiln_sim *sim, struct kiln_block *b,
-                                        const struct kiln_collider *c)
-{
-    const struct kiln_grid grid = sim->surroundings->grids[c->grid];
-    const struct kiln_pose pose = sim->surroundings->poses[c->mesh];
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        float3 from = sdf_local(pose, 0.0f, particle_position(record_at(b, i)));
-        float3 to = sdf_local(pose, 1.0f, kiln_get3(&b->position, i));
-        b->touching[i] &= 1u ^ (uint32_t)depth_is_clear(grid, from, to);
     }
 }
 

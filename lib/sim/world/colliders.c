@@ -97,7 +97,7 @@ uint kiln_sim_collider_kind(const struct kiln_object *object)
     case KILN_OBJECT_MESH:
         if (kiln_volumes_needs(object))
             return COLLIDER_VOLUME;
-        return object->collider == KILN_COLLIDER_DEPTH_MAPS ? COLLIDER_DEPTH : COLLIDER_SDF;
+        return kiln_sim_mesh_row(object)->kind;
     case KILN_OBJECT_SPHERE:
         return COLLIDER_SPHERE;
     default:
@@ -186,20 +186,12 @@ struct extent {
     vec3 half, middle;
 };
 
-static struct extent extent_of_depths(const struct kiln_grid *g)
+static struct extent extent_of(const struct kiln_mesh_row *row, const struct kiln_grid *grid)
 {
-    struct extent extent = {.half = {0.5f * (g->high.x - g->low.x), 0.5f * (g->high.y - g->low.y),
-                                     0.5f * (g->high.z - g->low.z)}};
-    glm_vec3_add((vec3){g->low.x, g->low.y, g->low.z}, extent.half, extent.middle);
-    return extent;
-}
-
-static struct extent extent_of_field(const struct kiln_grid *g)
-{
-    struct extent extent = {.half = {0.5f * (float)(g->size.x - 1) / g->per_metre.x,
-                                     0.5f * (float)(g->size.y - 1) / g->per_metre.y,
-                                     0.5f * (float)(g->size.z - 1) / g->per_metre.z}};
-    glm_vec3_add((vec3){g->origin.x, g->origin.y, g->origin.z}, extent.half, extent.middle);
+    struct extent extent;
+    vec3 low;
+    row->extent(grid, extent.half, low);
+    glm_vec3_add(low, extent.half, extent.middle);
     return extent;
 }
 
@@ -235,10 +227,7 @@ static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
     const uint32_t number = grids->of_object[index];
     const struct pose start = pose_at(scene, mesh, start_s), end = pose_at(scene, mesh, end_s);
     struct kiln_collider field = {.grid = number, .mesh = number - grids->wind_count};
-    const struct kiln_grid *grid = &grids->table[number];
-    const struct extent extent = kiln_sim_collider_kind(mesh) == COLLIDER_DEPTH
-                                     ? extent_of_depths(grid)
-                                     : extent_of_field(grid);
+    const struct extent extent = extent_of(kiln_sim_mesh_row(mesh), &grids->table[number]);
     const float factor =
         memcmp(start.rotation, end.rotation, sizeof start.rotation) != 0 ? 1.5f : 1.0f;
     bound(start, &extent, factor, &field.min, &field.max);

@@ -1,25 +1,32 @@
-/* This file loads or makes the grids of a scene (wind, terrain, distance fields and depth maps),
- * and puts them all into one buffer, on the host or in GL. */
+/* This file loads or makes the grids of a scene (wind, terrain, and those of meshes), and puts them
+ * all into one buffer, on the host or in GL. */
 #include "sim/world/grids.h"
 
 #include <string.h>
 
-#include "asset/geometry/depth_maps.h"
-#include "asset/geometry/field.h"
 #include "asset/geometry/grid_in.h"
-#include "base/cache.h"
-#include "base/error.h"
-#include "scene/samples.h"
 #include "shared/exact.h"
+#include "sim/world/papers/papers.h"
 
-/* The sources of the grids in their order: winds, then objects. An object has a terrain, a field or
- * depth maps. */
+/* The grids of meshes by how particles collide with them. */
+static const struct kiln_mesh_row *const MESH_ROWS[KILN_COLLIDER_KINDS] = {
+    [KILN_COLLIDER_FIELD] = &kiln_mesh_field_row,
+    [KILN_COLLIDER_DEPTH_MAPS] = &kiln_mesh_depth_maps_row,
+};
+
+/* The sources of the grids in their order: winds, then objects. An object is a terrain or a mesh.
+ */
 struct sources {
     struct kiln_grid_file *winds[KILN_MAX_WINDS];
     struct kiln_terrain *terrains[KILN_MAX_MESHES];
-    struct kiln_field *fields[KILN_MAX_MESHES];
-    struct kiln_depth_maps *depths[KILN_MAX_MESHES];
+    const struct kiln_mesh_row *rows[KILN_MAX_MESHES];
+    void *meshes[KILN_MAX_MESHES]; /* what the rows created */
 };
+
+const struct kiln_mesh_row *kiln_sim_mesh_row(const struct kiln_object *mesh)
+{
+    return MESH_ROWS[mesh->collider];
+}
 
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file)
 {
@@ -55,39 +62,16 @@ static float4 canon4(const float v[3])
 
 /* ---- loading --------------------------------------------------------------------------------- */
 
-static struct kiln_depth_maps *make_depths(const struct kiln_mesh *mesh,
-                                           const struct kiln_object *object,
-                                           struct kiln_threads *threads, struct kiln_error *error)
-{
-    float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
-    kiln_object_depth_directions(object, directions);
-    return kiln_depth_maps_create(mesh, object->file, (const float(*)[3])directions,
-                                  object->depth_direction_count, object->depth_resolution, threads,
-                                  error);
-}
-
-static bool make_mesh(struct sources *sources, uint32_t number, const struct kiln_scene *scene,
-                      const struct kiln_object *object, struct kiln_threads *threads,
-                      struct kiln_error *error)
-{
-    const struct kiln_mesh *mesh = object->collision_mesh;
-    char cache[KILN_PATH_SIZE];
-    const bool cached = kiln_cache_folder(cache);
-    if (object->collider == KILN_COLLIDER_DEPTH_MAPS)
-        sources->depths[number] = make_depths(mesh, object, threads, error);
-    else
-        sources->fields[number] = kiln_field_create(mesh, object->file, object->cells,
-                                                    kiln_scene_field_reach(scene, object),
-                                                    cached ? cache : NULL, threads, error);
-    return sources->depths[number] || sources->fields[number];
-}
-
 static bool load_object(struct sources *sources, uint32_t number, const struct kiln_scene *scene,
                         const struct kiln_object *object, struct kiln_threads *threads,
                         struct kiln_error *error)
 {
-    if (object->kind == KILN_OBJECT_MESH)
-        return make_mesh(sources, number, scene, object, threads, error);
+    if (object->kind == KILN_OBJECT_MESH) {
+        const struct kiln_mesh_row *row = kiln_sim_mesh_row(object);
+        sources->rows[number] = row;
+        sources->meshes[number] = row->create(scene, object, threads, error);
+        return sources->meshes[number] != NULL;
+    }
     const struct kiln_terrain_params params = kiln_scene_terrain(scene, object);
     sources->terrains[number] = kiln_terrain_create(&params, error);
     return sources->terrains[number] != NULL;
@@ -118,8 +102,8 @@ static void free_sources(struct sources *sources)
         kiln_grid_destroy(&sources->winds[i]);
     for (uint32_t i = 0; i < KILN_MAX_MESHES; i++) {
         kiln_terrain_destroy(&sources->terrains[i]);
-        kiln_field_destroy(&sources->fields[i]);
-        kiln_depth_maps_destroy(&sources->depths[i]);
+        if (sources->meshes[i])
+            sources->rows[i]->destroy(sources->meshes[i]);
     }
 }
 
@@ -142,33 +126,16 @@ static struct kiln_grid place_terrain(const struct kiln_terrain *terrain, size_t
                               .size = {terrain->samples[0], 1, terrain->samples[1], (uint)first}};
 }
 
-static struct kiln_grid place_field(const struct kiln_field *field, size_t first)
+/* Returns the number of words of a placed grid. */
+static size_t count_words(const struct kiln_sim_grids *grids, const struct sources *sources,
+                          uint32_t i)
 {
-    const float per_unit = 1.0f / field->spacing;
-    const float per_units[3] = {per_unit, per_unit, per_unit};
-    return (struct kiln_grid){
-        .origin = canon4(field->origin),
-        .per_metre = canon4(per_units),
-        .size = {field->size[0], field->size[1], field->size[2], (uint)first}};
-}
-
-static struct kiln_grid place_depths(const struct kiln_depth_maps *maps, size_t first)
-{
-    return (struct kiln_grid){
-        .low = canon4(maps->min),
-        .high = canon4(maps->max),
-        .size = {maps->resolution, maps->resolution, maps->count, (uint)first}};
-}
-
-static const struct kiln_depth_maps *depths_of(const struct sources *sources, uint32_t wind_count,
-                                               uint32_t i)
-{
-    return i < wind_count ? NULL : sources->depths[i - wind_count];
-}
-
-static size_t count_words(const struct kiln_grid *grid, const struct kiln_depth_maps *maps)
-{
-    return maps ? maps->word_count : (size_t)grid->size.x * grid->size.y * grid->size.z;
+    const struct kiln_grid *grid = &grids->table[i];
+    const uint32_t k = i - grids->wind_count;
+    size_t count = (size_t)grid->size.x * grid->size.y * grid->size.z;
+    if (i >= grids->wind_count && sources->meshes[k])
+        sources->rows[k]->words(sources->meshes[k], &count);
+    return count;
 }
 
 static float find_steepest(const struct kiln_terrain *terrain)
@@ -194,12 +161,10 @@ static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
             grids->table[i] = place_terrain(sources->terrains[k], total);
             grids->top[i] = sources->terrains[k]->top;
             grids->steepest[i] = find_steepest(sources->terrains[k]);
-        } else if (sources->depths[k]) {
-            grids->table[i] = place_depths(sources->depths[k], total);
         } else {
-            grids->table[i] = place_field(sources->fields[k], total);
+            grids->table[i] = sources->rows[k]->place(sources->meshes[k], total);
         }
-        total += count_words(&grids->table[i], depths_of(sources, grids->wind_count, i));
+        total += count_words(grids, sources, i);
     }
     return total;
 }
@@ -218,21 +183,23 @@ static void copy_wind(float4 *words, const struct kiln_grid_file *wind, size_t c
         words[i] = canon4(wind->samples[i]);
 }
 
+static void copy_mesh(float4 *words, const struct sources *sources, uint32_t k)
+{
+    size_t count;
+    const float(*from)[4] = sources->rows[k]->words(sources->meshes[k], &count);
+    memcpy(words, from, count * sizeof *words);
+}
+
 static void copy_words(float4 *words, const struct sources *sources, uint32_t wind_count,
                        uint32_t i, size_t count)
 {
-    const struct kiln_grid_file *wind = i < wind_count ? sources->winds[i] : NULL;
-    const struct kiln_terrain *terrain = wind ? NULL : sources->terrains[i - wind_count];
-    const struct kiln_field *field = wind ? NULL : sources->fields[i - wind_count];
-    const struct kiln_depth_maps *maps = depths_of(sources, wind_count, i);
-    if (wind)
-        copy_wind(words, wind, count);
-    else if (terrain)
-        copy_terrain(words, terrain, count);
-    else if (field)
-        memcpy(words, field->samples, count * sizeof *words);
-    else if (maps)
-        memcpy(words, maps->words, count * sizeof *words);
+    const uint32_t k = i - wind_count;
+    if (i < wind_count)
+        copy_wind(words, sources->winds[i], count);
+    else if (sources->terrains[k])
+        copy_terrain(words, sources->terrains[k], count);
+    else
+        copy_mesh(words, sources, k);
 }
 
 static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
@@ -247,8 +214,7 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
     memcpy(words, scene->keys, grids->key_words * sizeof *words);
     words += grids->key_words;
     for (uint32_t i = 0; i < grids->count; i++) {
-        const size_t count =
-            count_words(&grids->table[i], depths_of(sources, grids->wind_count, i));
+        const size_t count = count_words(grids, sources, i);
         copy_words(words, sources, grids->wind_count, i, count);
         words += count;
     }

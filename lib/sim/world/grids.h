@@ -6,7 +6,7 @@
 
 #include "base/thread.h"
 #include "gpu/buffer.h"
-#include "scene/scene.h"
+#include "sim/world/mesh_row.h"
 #include "sim/world/volumes.h"
 
 struct kiln_sim_grids {
@@ -34,6 +34,9 @@ void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
 
 /* Returns whether an object needs a grid that does not change during a run. */
 bool kiln_sim_grids_needs(const struct kiln_object *object);
+
+/* Returns the kind of the grid of a mesh that needs one. */
+const struct kiln_mesh_row *kiln_sim_mesh_row(const struct kiln_object *mesh);
 
 /* Returns the number of the grid of a wind file that the scene names. */
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file);

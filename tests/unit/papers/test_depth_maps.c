@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
+#include "asset/geometry/papers/depth_maps.h"
 #include "shared/collide.h"
 #include "support/bodies.h"
 #include "support/cmocka.h"

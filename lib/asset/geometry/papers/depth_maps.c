@@ -3,7 +3,7 @@
  * heights to 2^-24 of the mesh's extent along the direction. All that follows is in 64-bit
  * integers, so no sample is missed between two neighbouring triangles. The order of triangles
  * matters only among equals, of which the first counts. */
-#include "asset/geometry/depth_maps.h"
+#include "asset/geometry/papers/depth_maps.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
  * front and two of the back. The points at which a path enters and leaves a map are therefore
  * exact, and no particle is too fast and no part too thin. The mesh moves rigidly, as a mesh with a
  * distance field does (shared/collide_sdf.h). */
-#ifndef KILN_SHARED_COLLIDE_DEPTH_H
-#define KILN_SHARED_COLLIDE_DEPTH_H
+#ifndef KILN_SHARED_PAPERS_COLLIDE_DEPTH_H
+#define KILN_SHARED_PAPERS_COLLIDE_DEPTH_H
 
 #include "shared/collide_sdf.h"
 

@@ -3,17 +3,12 @@
  * has the first and the last surface and their normals. A point that lies between them in every map
  * counts as inside. So hollows of the mesh that cannot be seen from any direction count as inside,
  * too. The mesh need not be closed. */
-#ifndef KILN_ASSET_GEOMETRY_DEPTH_MAPS_H
-#define KILN_ASSET_GEOMETRY_DEPTH_MAPS_H
+#ifndef KILN_ASSET_GEOMETRY_PAPERS_DEPTH_MAPS_H
+#define KILN_ASSET_GEOMETRY_PAPERS_DEPTH_MAPS_H
 
 #include "asset/geometry/mesh.h"
 #include "base/thread.h"
 #include "shared/limits.h"
-
-enum {
-    KILN_MIN_DEPTH_RESOLUTION = 16, /* least samples along each edge of a map */
-    KILN_MAX_DEPTH_RESOLUTION = 256,
-};
 
 struct kiln_depth_maps {
     uint32_t count, resolution;
