@@ -7,28 +7,6 @@
 #include "base/error.h"
 #include "scene/work.h"
 
-/* Returns the technique for comparison with papers that a stage runs, as the user writes it; NULL:
- * none does. */
-static const char *find_paper(const struct kiln_techniques *techniques, const char **instead)
-{
-    *instead = "simulate=inplace";
-    switch (techniques->simulate) {
-    case KILN_SIMULATE_PINGPONG:
-        return "simulate=pingpong";
-    case KILN_SIMULATE_FEEDBACK:
-        return "simulate=feedback";
-    case KILN_SIMULATE_TEXELS:
-        return "simulate=texels";
-    case KILN_SIMULATE_CPU:
-    case KILN_SIMULATE_INPLACE:
-        break;
-    }
-    *instead = "sort=radix";
-    return techniques->sort == KILN_SORT_ODDEVEN || techniques->sort == KILN_SORT_SPREAD
-               ? "sort=oddeven"
-               : NULL;
-}
-
 static uint32_t most_forces(const struct kiln_scene *scene)
 {
     uint32_t most = 0;
@@ -80,7 +58,8 @@ static bool check_device(const struct kiln_scene *scene, const struct kiln_techn
 bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                       struct kiln_error *error)
 {
-    const char *instead, *paper = find_paper(techniques, &instead);
+    char paper[KILN_TECHNIQUE_SIZE];
+    const char *instead;
     const struct {
         const char *path, *noun;
         uint32_t found, most;
@@ -89,7 +68,8 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
         {"forces", "forces of a system", most_forces(scene), 16},
         {"scene", "keys", scene->key_count, KILN_BLOCK_KEYS},
     };
-    for (size_t i = 0; paper && i < sizeof rows / sizeof *rows; i++) {
+    const bool found = kiln_techniques_paper(techniques, paper, &instead);
+    for (size_t i = 0; found && i < sizeof rows / sizeof *rows; i++) {
         if (rows[i].found > rows[i].most)
             return kiln_error_set(
                 error, KILN_USAGE, "%s: found %u %s; the technique %s takes at most %u: use %s",

@@ -134,6 +134,18 @@ static const struct row *find_row(enum stage stage, const char *name)
     return NULL;
 }
 
+/* The techniques for comparison with the papers that describe them, which are in folders papers/.
+ * `auto` never takes them. `instead` is for scenes that they do not take. */
+static const struct paper_row {
+    enum stage stage;
+    const char *name, *instead;
+} PAPER_ROWS[] = {
+    {SIMULATE, "pingpong", "simulate=inplace"},
+    {SIMULATE, "feedback", "simulate=inplace"},
+    {SIMULATE, "texels", "simulate=inplace"},
+    {SORT, "oddeven", "sort=radix"},
+};
+
 static const struct numbered_row *find_numbered_row(enum stage stage, const char *name)
 {
     for (size_t i = 0; i < sizeof NUMBERED_ROWS / sizeof *NUMBERED_ROWS; i++) {
@@ -300,6 +312,20 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         techniques->choices[stage] = (struct kiln_technique_choice){
             STAGE_NAMES[stage], choices.rows[stage]->name, choices.reason[stage]};
     return true;
+}
+
+bool kiln_techniques_paper(const struct kiln_techniques *techniques, char name[KILN_TECHNIQUE_SIZE],
+                           const char **instead)
+{
+    for (size_t i = 0; i < sizeof PAPER_ROWS / sizeof *PAPER_ROWS; i++) {
+        const struct paper_row *row = &PAPER_ROWS[i];
+        if (strcmp(techniques->choices[row->stage].name, row->name) != 0)
+            continue;
+        snprintf(name, KILN_TECHNIQUE_SIZE, "%s=%s", STAGE_NAMES[row->stage], row->name);
+        *instead = row->instead;
+        return true;
+    }
+    return false;
 }
 
 uint32_t kiln_techniques_history(const struct kiln_techniques *techniques)

@@ -33,6 +33,11 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
 
+/* Finds the first technique that is there for comparison with papers, "sort=oddeven", and the
+ * technique to take for what it cannot do. Returns false if there is none. */
+bool kiln_techniques_paper(const struct kiln_techniques *techniques, char name[KILN_TECHNIQUE_SIZE],
+                           const char **instead);
+
 /* Returns 0 if no technique keeps a history (particles/history.h), or otherwise a number that tells
  * this history from those of other techniques. Saved states hash it, so it must not change. */
 uint32_t kiln_techniques_history(const struct kiln_techniques *techniques);

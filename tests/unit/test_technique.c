@@ -170,6 +170,34 @@ static void a_sort_can_be_spread_over_frames(void **state)
     assert_int_equal(techniques.sort_number, 0);
 }
 
+/* `auto` takes no technique of the papers, on no device. */
+static void papers_are_asked_for(void **state)
+{
+    (void)state;
+    static const char *const flags[] = {"sort=oddeven:8", "simulate=texels"};
+    struct kiln_error error = {0};
+    struct kiln_techniques techniques;
+    char name[KILN_TECHNIQUE_SIZE];
+    const char *instead;
+    for (int i = 0; i < 8; i++) {
+        const struct kiln_device_info device = {
+            .gl = i & 1, .software = i & 2, .exact = i & 4, .name = "Device"};
+        if (kiln_techniques_choose(&device, NULL, 0, &techniques, &error))
+            assert_false(kiln_techniques_paper(&techniques, name, &instead));
+    }
+    const struct kiln_device_info device = {
+        .gl = true, .software = true, .exact = true, .name = "Device"};
+    assert_true(kiln_techniques_choose(&device, flags, 1, &techniques, &error));
+    assert_true(kiln_techniques_paper(&techniques, name, &instead));
+    assert_string_equal(name, "sort=oddeven");
+    assert_string_equal(instead, "sort=radix");
+    assert_int_equal(kiln_techniques_history(&techniques), 8);
+    assert_true(kiln_techniques_choose(&device, flags + 1, 1, &techniques, &error));
+    assert_true(kiln_techniques_paper(&techniques, name, &instead));
+    assert_string_equal(name, "simulate=texels");
+    assert_int_equal(kiln_techniques_history(&techniques), 0);
+}
+
 static void inexact_devices_do_not_simulate_or_sort(void **state)
 {
     (void)state;
@@ -239,6 +267,7 @@ int main(void)
         cmocka_unit_test(a_device_without_gl_takes_cpu_alone),
         cmocka_unit_test(flags_force_a_technique),
         cmocka_unit_test(a_sort_can_be_spread_over_frames),
+        cmocka_unit_test(papers_are_asked_for),
         cmocka_unit_test(inexact_devices_do_not_simulate_or_sort),
         cmocka_unit_test(combinations_start_with_the_pinned_one),
     };
