@@ -32,7 +32,7 @@ struct kiln_bake_params {
     size_t size;
     const char *states;            /* the folder; it is made if it is missing */
     uint32_t every;                /* frames between two states; 0: one before each part */
-    const char *const *techniques; /* "stage=name"; with a spread sort, its order is saved, too */
+    const char *const *techniques; /* "stage=name"; a history that they keep is saved, too */
     size_t technique_count;
     uint32_t threads; /* 0 takes one a core */
     bool overwrite;   /* replace states that are there; without overwrite and resume, a state that

@@ -3,7 +3,6 @@
 #ifndef KILN_SIM_STEP_BLOCKS_H
 #define KILN_SIM_STEP_BLOCKS_H
 
-#include "gpu/probe.h"
 #include "gpu/program.h"
 #include "sim/world/params.h"
 

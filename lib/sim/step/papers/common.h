@@ -2,6 +2,7 @@
 #ifndef KILN_SIM_STEP_PAPERS_COMMON_H
 #define KILN_SIM_STEP_PAPERS_COMMON_H
 
+#include "gpu/probe.h"
 #include "sim/step/blocks.h"
 
 /* Checks that particles can be moved in this stage, which is not compute. KILN_NO_DEVICE when the
