@@ -208,7 +208,7 @@ static bool run(void *technique, struct kiln_pool *pool, const struct kiln_sort_
 /* The pairs lie in memory twice; the list overwrites one of the copies. */
 static uint64_t bytes(uint32_t slots)
 {
-    return 2 * PAIR_BYTES * (uint64_t)slots;
+    return (uint64_t)slots * PAIR_BYTES * 2;
 }
 
 const struct kiln_sort_row kiln_sort_radix_row = {

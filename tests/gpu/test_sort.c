@@ -1,6 +1,7 @@
 /* Checks that the sorts on the device order pairs of key and index as qsort does, and that all
  * techniques of stage `sort` list the same particles in the same order. If this fails, particles
  * are lost or blended in a wrong order, and pictures depend on the technique. */
+#include <inttypes.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -305,8 +306,8 @@ static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *poo
         assert_int_equal(counts[i], counts[0]);
         for (uint32_t k = 0; k < counts[0]; k++)
             if (lists[i][k] != lists[0][k])
-                fail_msg("%s: %08x at %u of %u instead of %08x; systems %x", NAMES[i], lists[i][k],
-                         k, counts[0], lists[0][k], params->systems);
+                fail_msg("%s: %08x at %u of %u instead of %08x; systems %" PRIx64, NAMES[i],
+                         lists[i][k], k, counts[0], lists[0][k], params->systems);
     }
     return counts[0];
 }

@@ -43,7 +43,7 @@ const struct kiln_contact_row kiln_contact_exact_row = {
     .looks_ahead = true,
     .sort = sort,
     .find = find_partners,
-    .files = {[COUNT] = {"sim/crowd/interact_count.comp", ""},
+    .files = {[COUNT] = {"sim/crowd/interact_count.comp", "", false},
               [FIND] = {"sim/crowd/interact_find.comp", "", .counts_around = true}},
     .sort_gl = sort_gl,
 };

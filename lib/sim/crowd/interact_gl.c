@@ -15,16 +15,17 @@ static const struct {
     struct kiln_interact_file source;
     int used_for;
 } KERNELS[KILN_INTERACT_KERNELS] = {
-    [KILN_INTERACT_SPEEDS] = {{"sim/crowd/interact_speeds.comp", ""}, LOOK_AHEAD},
-    [KILN_INTERACT_SCAN] = {{"sim/crowd/interact_scan.comp", ""}, COLLIDE | FLOCK},
-    [KILN_INTERACT_PLACE] = {{"sim/crowd/interact_place.comp", ""}, COLLIDE | FLOCK},
-    [KILN_INTERACT_ANSWER] = {{"sim/crowd/interact_answer.comp", ""}, COLLIDE},
-    [KILN_INTERACT_PUSH] = {{"sim/crowd/interact_push.comp", ""}, COLLIDE},
-    [KILN_INTERACT_SOURCES] = {{"sim/crowd/interact_sources.comp", ""}, GRAVITY},
-    [KILN_INTERACT_GRAVITY_TILES] = {{"sim/crowd/interact_gravity.comp", ""}, GRAVITY},
-    [KILN_INTERACT_COUNT_FLOCK] = {{"sim/crowd/interact_count.comp", "#define FLOCK 1\n"}, FLOCK},
-    [KILN_INTERACT_FLOCK_MEANS] = {{"sim/crowd/interact_flock_means.comp", ""}, FLOCK},
-    [KILN_INTERACT_FLOCK_STEER] = {{"sim/crowd/interact_flock.comp", ""}, FLOCK},
+    [KILN_INTERACT_SPEEDS] = {{"sim/crowd/interact_speeds.comp", "", false}, LOOK_AHEAD},
+    [KILN_INTERACT_SCAN] = {{"sim/crowd/interact_scan.comp", "", false}, COLLIDE | FLOCK},
+    [KILN_INTERACT_PLACE] = {{"sim/crowd/interact_place.comp", "", false}, COLLIDE | FLOCK},
+    [KILN_INTERACT_ANSWER] = {{"sim/crowd/interact_answer.comp", "", false}, COLLIDE},
+    [KILN_INTERACT_PUSH] = {{"sim/crowd/interact_push.comp", "", false}, COLLIDE},
+    [KILN_INTERACT_SOURCES] = {{"sim/crowd/interact_sources.comp", "", false}, GRAVITY},
+    [KILN_INTERACT_GRAVITY_TILES] = {{"sim/crowd/interact_gravity.comp", "", false}, GRAVITY},
+    [KILN_INTERACT_COUNT_FLOCK] = {{"sim/crowd/interact_count.comp", "#define FLOCK 1\n", false},
+                                   FLOCK},
+    [KILN_INTERACT_FLOCK_MEANS] = {{"sim/crowd/interact_flock_means.comp", "", false}, FLOCK},
+    [KILN_INTERACT_FLOCK_STEER] = {{"sim/crowd/interact_flock.comp", "", false}, FLOCK},
 };
 
 static int uses(const struct kiln_scene *scene)

@@ -234,10 +234,11 @@ static bool sort_gl(struct kiln_interact *interact, const struct kiln_interact_p
 const struct kiln_contact_row kiln_contact_staggered_row = {
     .sort = sort_into_grids,
     .find = find_partners,
-    .files = {[COUNT] = {"sim/crowd/papers/staggered_count.comp", ""},
-              [BITONIC] = {"sim/crowd/papers/staggered_bitonic.comp", ""},
-              [ORDER_FIRST] = {"sim/crowd/papers/staggered_order.comp", ""},
-              [ORDER_SECOND] = {"sim/crowd/papers/staggered_order.comp", "#define SECOND 1\n"},
-              [FIND] = {"sim/crowd/papers/staggered_find.comp", ""}},
+    .files = {[COUNT] = {"sim/crowd/papers/staggered_count.comp", "", false},
+              [BITONIC] = {"sim/crowd/papers/staggered_bitonic.comp", "", false},
+              [ORDER_FIRST] = {"sim/crowd/papers/staggered_order.comp", "", false},
+              [ORDER_SECOND] = {"sim/crowd/papers/staggered_order.comp", "#define SECOND 1\n",
+                                false},
+              [FIND] = {"sim/crowd/papers/staggered_find.comp", "", false}},
     .sort_gl = sort_gl,
 };
