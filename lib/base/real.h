@@ -31,6 +31,7 @@
 #define real_atan2(y, x)            vf_atan2(y, x)
 #define real_select(holds, yes, no) vf_select(holds, yes, no)
 #define real_where(holds, x)        vf_where(holds, x)
+#define real_some(holds)            any(holds)
 #define real_sign_one(x)            vf_sign_one(x)
 #define REAL_INT                    vi
 #define real_bits(x)                ((vi)(x))

@@ -134,10 +134,10 @@ struct kiln_view {
 struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
     float4 color; /* radiance of a white surface 1 m in front, far from the lamp; w: radius, m */
-    /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
-     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes, and from
-     * KILN_LAMP_SOLID_SHIFT on that of its maps of solid particles; z: 1 + number of its map of
-     * smoke; for all three, 0: none; w: 1: it may be hidden; 3: particles have their part */
+    /* x: a bit for each shape of kiln_draw_shapes that may hide the light; y: 1 + number of its
+     * shadow maps of meshes, and from KILN_LAMP_SOLID_SHIFT on that of its maps of solid particles;
+     * z: 1 + number of its map of smoke; for all three, 0: none; w: 1: it may be hidden; 3:
+     * particles have their part */
     uint4 casters;
     /* Distance that the shadow maps of meshes reach, m; distance of the first layer of the map of
      * smoke, m; layers of it that double the distance; reach of the maps of solids, m. */
@@ -148,7 +148,7 @@ struct kiln_draw_light {
     float4 up;    /* to its upper edge, m; w: 1 / (cosine of the inner cone - of the outer) */
 };
 
-/* Sky, floor, boxes, sun and lights: all that lies behind the particles and lights them. */
+/* Sky, floor, sun and lights. */
 struct kiln_draw_backdrop {
     float4 sky_top;       /* w: brightness of the sun's disc, in parts of its colour */
     float4 sky_horizon;   /* w: that of the glow around the sun */
@@ -156,11 +156,8 @@ struct kiln_draw_backdrop {
     float4 floor_params;  /* 1 if there is a floor; edge of its squares, m; haze, 1/m; sky_glow */
     float4 sun_direction; /* unit, towards the sun; w: radius of its disc: sky_disc */
     float4 sun_color;     /* irradiance; w: 1 if each particle has a value of shade, or 0 */
-    /* boxes; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
+    /* unused; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
     uint4 counts;
-    float4 box_center[KILN_MAX_OBJECTS];
-    float4 box_half[KILN_MAX_OBJECTS]; /* w: radius of the bounding sphere, m */
-    float4 box_color[KILN_MAX_OBJECTS];
     S(kiln_draw_light) lights[KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS];
     float4 sun_to_grid[3]; /* rows: world positions to the grids of smoke (smoke_shadow.glsl) */
     float4 sky_to_grid[3];

@@ -10,6 +10,8 @@
  *   real3      three of them; operations are functions
  *   truth      whether something holds at each point; truth_and, truth_or and truth_not combine it
  *   float      a number that all points share; real_all(x) makes a real of it
+ *   real_some(truth)  whether a vector needs what follows: it holds at some point of it. For one
+ *              point it is true, so that GLSL has no branch there
  *   REAL_INT   a signed integer of each point; real_bits and real_of_bits reinterpret, real_of and
  *              real_int convert
  * Both sides of a choice are computed: real_select(truth, yes, no) takes the place of ?: and if. */
@@ -43,6 +45,7 @@
 #define real_atan2(y, x)            atan(y, x)
 #define real_select(holds, yes, no) ((holds) ? (yes) : (no))
 #define real_where(holds, x)        ((holds) ? (x) : 0.0f)
+#define real_some(holds)            true
 #define real_sign_one(x)            ((x) < 0.0f ? -1.0f : 1.0f)
 #define REAL_INT                    int
 #define real_bits(x)                floatBitsToInt(x)
@@ -90,6 +93,7 @@
 #define real_cos(x)                 exact_sincos(x).cosine
 #define real_select(holds, yes, no) ((holds) ? (yes) : (no))
 #define real_where(holds, x)        ((holds) ? (x) : 0.0f)
+#define real_some(holds)            truth_or(holds, true)
 #define real_sign_one(x)            ((x) < 0.0f ? -1.0f : 1.0f)
 #define REAL_INT                    int32_t
 #define real_bits(x)                ((int32_t)FLOAT_BITS(x))

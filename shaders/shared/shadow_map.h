@@ -6,8 +6,8 @@
 #ifndef KILN_SHARED_SHADOW_MAP_H
 #define KILN_SHARED_SHADOW_MAP_H
 
+#include "shared/light_cover.h"
 #include "shared/shape_layout.h"
-#include "shared/sun_cover.h"
 
 /* ---- meshes of the backdrop ------------------------------------------------------------------ */
 

@@ -1,14 +1,12 @@
 /* Declares what shaders of the backdrop share with the C code that feeds them: the texture units,
- * the numbers of surfaces, the sizes of shadow maps, and the uniform block kiln_draw_shapes. The
- * block has what kiln_draw_backdrop of draw_layout.h does not have: all objects but axis-aligned
- * boxes, the sun's frame, and the floor's and the sky's images, gloss and waves. Both are laid out
- * alike. lib/draw/moment/shapes.h fills it in. */
+ * the numbers of surfaces, the sizes of shadow maps, and the uniform block kiln_draw_shapes: the
+ * backdrop's objects, the sun's frame, and the floor's and the sky's images, gloss and waves.
+ * lib/draw/moment/shapes.h fills it in. */
 #ifndef KILN_SHARED_SHAPE_LAYOUT_H
 #define KILN_SHARED_SHAPE_LAYOUT_H
 
 #include "shared/limits.h"
 #include "shared/platform.h"
-#include "shared/sun_edges.h"
 
 #define KILN_BIND_SHAPES 4 /* a uniform block */
 
@@ -37,18 +35,12 @@
 #define KILN_WAVES 8 /* number of waves of water on the floor */
 
 /* Numbers of surfaces that a ray hits; pixels with different numbers have an edge between them. The
- * sky has -1, the floor 0. Each object of a kind follows after the one before: spheres, capsules
- * and planes take one number each; a cylinder takes 3, for its side and its two ends; a mesh has
- * one out of 4. A box takes 27, of which its faces use six: KILN_SURFACE_BOX is the middle one, to
- * which ray_face_number, -13 to 13, is added. */
-#define KILN_SURFACE_BOX(first, i) ((first) + 14 + 27 * (i))
-#define KILN_SURFACE_BOXES         0
-#define KILN_SURFACE_SPHERES       1000
-#define KILN_SURFACE_CYLINDERS     1100
-#define KILN_SURFACE_ORIENTED      1200
-#define KILN_SURFACE_CAPSULES      2200
-#define KILN_SURFACE_PLANES        2250
-#define KILN_SURFACE_MESHES        2300
+ * sky has -1, the floor 0. Shape i has KILN_SURFACE_SHAPE(i), to which the number of its face is
+ * added (struct shape_face of shape.h). A mesh has one number out of 4. */
+#define KILN_FACE_LEAST       -4
+#define KILN_FACE_MOST        4
+#define KILN_SURFACE_SHAPE(i) (5 + 9 * (i))
+#define KILN_SURFACE_MESHES   KILN_SURFACE_SHAPE(KILN_MAX_OBJECTS)
 
 /* Edge of a mesh's shadow map, texels; a mesh fills all of them but a border. */
 #define KILN_SHADOW_EDGE   1024
@@ -87,17 +79,27 @@ struct kiln_draw_mesh {
     float4 half_size;
 };
 
-/* A box that does not lie along the axes. */
-struct kiln_draw_oriented_box {
-    float4 center;
-    float4 rows[3];   /* axes of the world in its frame */
-    float4 half_size; /* w: radius of its bounding sphere, m */
+/* Kinds of shapes (shared/shapes.h). A sphere is a capsule of no height. */
+#define SHAPE_BOX      0u
+#define SHAPE_CYLINDER 1u
+#define SHAPE_CAPSULE  2u
+#define SHAPE_PLANE    3u
+#define SHAPE_KINDS    4u
+
+/* Words of four numbers with one for each kind and one more. */
+#define KILN_SHAPE_FIRSTS 2
+
+/* A shape of the backdrop. Its frame has its axis along y. */
+struct kiln_draw_shape {
+    float4 center;  /* m; w: radius of its bounding sphere, m */
+    float4 extent;  /* half of its size along the axes of its frame, m; w: radius around its axis */
+    float4 rows[3]; /* unit vectors along the axes of its frame */
     float4 color;
+    uint4 kind; /* SHAPE_*; 1 if vectors must be turned into its frame, else 0; unused */
 };
 
 struct kiln_draw_shapes {
-    uint4 counts;           /* spheres, cylinders, meshes; bins of solids along an edge, or 0 */
-    uint4 oriented_counts;  /* capsules, oriented boxes, planes; w: unused */
+    uint4 counts;           /* shapes; unused; meshes; bins of solids along an edge, or 0 */
     float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
     float4 sun_up;          /* unit, across sun_right and the sun's direction */
     float4 world_to_bin[2]; /* rows: world positions to bins of particles */
@@ -107,21 +109,14 @@ struct kiln_draw_shapes {
     float4 waves[KILN_WAVES];
     float4 wave_shift[KILN_WAVES]; /* x, y: how far each wave shifts the later ones in x and z, m */
     float4 sky_map; /* turn, parts of a circle; brightness factor; texels per radian; unused */
-    float4 spheres[KILN_MAX_OBJECTS]; /* centre; w: radius */
-    float4 sphere_color[KILN_MAX_OBJECTS];
-    float4 cylinders[KILN_MAX_OBJECTS];     /* centre; w: radius */
-    float4 cylinder_axis[KILN_MAX_OBJECTS]; /* unit; w: half of the height */
-    float4 cylinder_color[KILN_MAX_OBJECTS];
     S(kiln_draw_mesh) meshes[KILN_MAX_MESHES];
-    float4 capsules[KILN_MAX_OBJECTS];     /* centre; w: radius */
-    float4 capsule_axis[KILN_MAX_OBJECTS]; /* unit; w: half of the height without the ends */
-    float4 capsule_color[KILN_MAX_OBJECTS];
-    float4 planes[KILN_MAX_OBJECTS]; /* unit normal; w: distance from the origin along it */
-    float4 plane_color[KILN_MAX_OBJECTS];
-    S(kiln_draw_oriented_box) oriented_boxes[KILN_MAX_OBJECTS];
-    S(sun_edges) edges; /* one for all axis-aligned boxes, which look alike from the sun */
-    S(sun_edges) oriented_edges[KILN_MAX_OBJECTS];
-    S(sun_band) bands[KILN_MAX_OBJECTS]; /* of cylinders */
+    /* Shapes in the order of their kinds; by kind, the first one, and after the last kind the end.
+     */
+    uint4 first[KILN_SHAPE_FIRSTS];
+    S(kiln_draw_shape) shapes[KILN_MAX_OBJECTS];
 };
+
+/* Returns where the shapes of a kind begin, in GLSL. */
+#define KILN_SHAPES_FROM(kind) int(shapes.first[(kind) >> 2u][(kind)&3u])
 
 #endif

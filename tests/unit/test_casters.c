@@ -55,7 +55,7 @@ static float4 axis(double half)
 }
 
 /* Turns a box around a random axis. */
-static void turn(struct kiln_draw_oriented_box *box)
+static void turn(struct kiln_draw_shape *box)
 {
     double n[3];
     direction(n);
@@ -69,29 +69,38 @@ static void turn(struct kiln_draw_oriented_box *box)
     }
 }
 
+/* Kinds of objects, which have EACH shapes one after another. */
+enum { BOXES, BALLS, CYLINDERS, CAPSULES, TURNED_BOXES };
+
+static void place_shape(int kind, struct kiln_draw_shape *shape)
+{
+    static const uint32_t kinds[KINDS] = {SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_CAPSULE,
+                                          SHAPE_BOX};
+    const bool is_box = kind == BOXES || kind == TURNED_BOXES;
+    shape->kind = (uint4){kinds[kind], kind != BOXES, 0, 0};
+    shape->center = place(5.0, 4.0); /* a sphere that is large enough for all */
+    shape->extent = (float4){(float)between(0.1, 1.0), (float)between(0.1, 2.0), 0.3f,
+                             is_box ? 0.0f : (float)between(0.1, 1.0)};
+    if (kind == BALLS)
+        shape->extent.y = 0.0f;
+    shape->rows[0].x = shape->rows[1].y = shape->rows[2].z = 1.0f;
+    if (kind == TURNED_BOXES)
+        turn(shape);
+    if (!is_box)
+        shape->rows[1] = axis(0.0);
+}
+
 static void place_objects(struct kiln_backdrop_inputs *inputs)
 {
     struct kiln_draw_backdrop *b = &inputs->block;
     struct kiln_draw_shapes *s = &inputs->shapes;
     memset(inputs, 0, sizeof *inputs);
-    b->counts = (uint4){EACH, LAMPS, 0, 0};
-    s->counts = (uint4){EACH, EACH, 0, 0};
-    s->oriented_counts = (uint4){EACH, EACH, 0, 0};
+    b->counts.y = LAMPS;
+    s->counts.x = OBJECTS;
     s->sun_right.w = SPREAD;
     b->sun_direction = axis(0.0);
-    for (int i = 0; i < EACH; i++) {
-        struct kiln_draw_oriented_box *box = &s->oriented_boxes[i];
-        b->box_center[i] = place(5.0, 0.0);
-        b->box_half[i] = (float4){(float)between(0.1, 1.0), (float)between(0.1, 1.0), 0.3f, 1.5f};
-        s->spheres[i] = place(5.0, between(0.1, 1.0));
-        s->cylinders[i] = place(5.0, between(0.1, 1.0));
-        s->cylinder_axis[i] = axis(between(0.1, 2.0));
-        s->capsules[i] = place(5.0, between(0.1, 0.6));
-        s->capsule_axis[i] = axis(between(0.1, 2.0));
-        box->center = place(5.0, 0.0);
-        box->half_size = (float4){(float)between(0.1, 2.0), 0.4f, 0.2f, 2.1f};
-        turn(box);
-    }
+    for (int i = 0; i < OBJECTS; i++)
+        place_shape(i / EACH, &s->shapes[i]);
     for (int i = 0; i < LAMPS; i++) {
         b->lights[i].position_radius2 = place(5.0, 0.0);
         b->lights[i].color.w = (float)between(0.01, 0.5);
@@ -131,36 +140,23 @@ static double dot(const double v[3], float4 other)
 
 static bool contains(const struct kiln_backdrop_inputs *inputs, int object, const double at[3])
 {
-    const struct kiln_draw_shapes *s = &inputs->shapes;
-    const struct kiln_draw_oriented_box *box = &s->oriented_boxes[object % EACH];
-    const float4 centers[KINDS] = {inputs->block.box_center[object % EACH],
-                                   s->spheres[object % EACH], s->cylinders[object % EACH],
-                                   s->capsules[object % EACH], box->center};
-    const float4 c = centers[object / EACH], half = inputs->block.box_half[object % EACH];
+    const struct kiln_draw_shape *s = &inputs->shapes.shapes[object];
+    const float4 c = s->center;
     const double from[3] = {at[0] - (double)c.x, at[1] - (double)c.y, at[2] - (double)c.z};
     const double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2];
-    const double radius = (double)c.w;
-    double along;
+    const double along = dot(from, s->rows[1]), radius = (double)s->extent.w;
+    const double end = (double)s->extent.y, beyond = fmax(fabs(along) - end, 0.0);
+    const double aside2 = square - along * along;
     switch (object / EACH) {
-    case 0:
-        return fabs(from[0]) <= (double)half.x && fabs(from[1]) <= (double)half.y &&
-               fabs(from[2]) <= (double)half.z;
-    case 1:
-        return square <= radius * radius;
-    case 2:
-        along = dot(from, s->cylinder_axis[object % EACH]);
-        return fabs(along) <= (double)s->cylinder_axis[object % EACH].w &&
-               square - along * along <= radius * radius;
-    case 3: {
-        const double end = (double)s->capsule_axis[object % EACH].w;
-        along = dot(from, s->capsule_axis[object % EACH]);
-        const double middle = fmin(fmax(along, -end), end);
-        return square - along * along + (along - middle) * (along - middle) <= radius * radius;
-    }
+    case BOXES:
+    case TURNED_BOXES:
+        return fabs(dot(from, s->rows[0])) <= (double)s->extent.x &&
+               fabs(dot(from, s->rows[1])) <= (double)s->extent.y &&
+               fabs(dot(from, s->rows[2])) <= (double)s->extent.z;
+    case CYLINDERS:
+        return beyond <= 0.0 && aside2 <= radius * radius;
     default:
-        return fabs(dot(from, box->rows[0])) <= (double)box->half_size.x &&
-               fabs(dot(from, box->rows[1])) <= (double)box->half_size.y &&
-               fabs(dot(from, box->rows[2])) <= (double)box->half_size.z;
+        return aside2 + beyond * beyond <= radius * radius;
     }
 }
 
@@ -264,10 +260,7 @@ static void what_is_seen_of_lamps_stays(void **state)
     srand(11);
     for (int trial = 0; trial < TRIALS; trial++) {
         open_scene(&scene);
-        const struct kiln_lamp_objects objects = {.box_count = EACH,
-                                                  .box_center = scene.inputs.block.box_center,
-                                                  .box_half = scene.inputs.block.box_half,
-                                                  .shapes = &scene.inputs.shapes};
+        const struct kiln_lamp_objects objects = {.shapes = &scene.inputs.shapes};
         const struct kiln_lit_box box = random_box(trial);
         const struct kiln_casters casters = find_casters(&scene.frame, &box);
         for (int i = 0; i < LAMPS * WAYS; i++) {
@@ -289,8 +282,9 @@ static void bounds_touch_corners(void **state)
     static struct scene scene;
     open_scene(&scene);
     for (int i = 0; i < EACH; i++) {
-        const struct kiln_draw_oriented_box *box = &scene.inputs.shapes.oriented_boxes[i];
-        const float half[3] = {box->half_size.x, box->half_size.y, box->half_size.z};
+        const int number = TURNED_BOXES * EACH + i;
+        const struct kiln_draw_shape *box = &scene.inputs.shapes.shapes[number];
+        const float half[3] = {box->extent.x, box->extent.y, box->extent.z};
         float farthest[3] = {0};
         for (int corner = 0; corner < 8; corner++) {
             float at[3] = {0};
@@ -304,7 +298,7 @@ static void bounds_touch_corners(void **state)
                 farthest[k] = fmaxf(farthest[k], at[k]);
         }
         for (int k = 0; k < 3; k++)
-            assert_float_equal(farthest[k], scene.bounds.half[k][OBJECTS - EACH + i], 1e-5f);
+            assert_float_equal(farthest[k], scene.bounds.half[k][number], 1e-3f);
     }
 }
 

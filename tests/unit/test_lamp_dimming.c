@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/light/lamp_shade_blocks.h"
 #include "draw/light/lamps.h"
 #include "draw/light/ray_smoke.h"
+#include "draw/light/shade_blocks.h"
 #include "support/cmocka.h"
 #include "support/placed.h"
 

@@ -11,8 +11,8 @@
 #include "draw/backdrop/backdrop_cpu.h"
 #include "draw/backdrop/backdrop_gl.h"
 #include "draw/light/lighting_gl.h"
-#include "draw/light/sun_cover.h"
 #include "shared/exact.h"
+#include "shared/shapes.h"
 
 struct kiln_backdrop_stage {
     const struct kiln_scene *scene;
@@ -82,12 +82,12 @@ static float3 sun_color(const struct kiln_moment *moment)
     const struct kiln_scene *scene = moment->scene;
     const float time_s = moment->view.clock.x;
     float3 color = kiln_scene_value3(scene, &scene->backdrop.sun_color, time_s);
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
-        const struct kiln_object *plane = &scene->backdrop.objects[i];
-        if (plane->kind != KILN_OBJECT_PLANE || !plane->visible)
-            continue;
-        float3 normal = kiln_direction(kiln_scene_value3(scene, &plane->axis, time_s));
-        color = float3_scale(color, 1.0f - kiln_plane_sun_cover(normal, &moment->sun));
+    for (uint32_t i = 0; i < moment->shapes.counts.x; i++) {
+        const struct kiln_draw_shape *plane = &moment->shapes.shapes[i];
+        const float4 normal = plane->rows[1];
+        const float height = real3_dot_all(moment->sun.towards, normal);
+        if (plane->kind.x == SHAPE_PLANE)
+            color = float3_scale(color, 1.0f - plane_hides(height, moment->sun.spread));
     }
     return color;
 }
@@ -103,7 +103,7 @@ static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
     const struct kiln_scene *scene = moment->scene;
     const float time_s = moment->view.clock.x;
     const struct kiln_backdrop *b = &scene->backdrop;
-    struct kiln_draw_backdrop block = {
+    return (struct kiln_draw_backdrop){
         .sky_top = with_w(kiln_scene_value3(scene, &b->sky_top, time_s),
                           kiln_scene_value(scene, &b->sun_disc, time_s)),
         .sky_horizon = with_w(kiln_scene_value3(scene, &b->sky_horizon, time_s),
@@ -119,9 +119,6 @@ static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
         .sun_color = with_w(sun_color(moment), 0.0f),
         .counts = {0, 0, b->transparent ? 1u : 0u, 0},
     };
-    block.counts.x =
-        kiln_boxes_fill(scene, time_s, block.box_center, block.box_half, block.box_color);
-    return block;
 }
 
 /* Returns whether two inputs give the same picture. The camera's clock does not change the picture,
@@ -191,7 +188,11 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     const float time_s = moment->view.clock.x;
     const struct pictures pictures = pictures_of(stage);
     struct kiln_backdrop_inputs inputs = {
-        .view = moment->view, .block = make_block(moment), .shapes = moment->shapes};
+        .view = moment->view,
+        .block = make_block(moment),
+        .shapes = moment->shapes,
+        .from_sun = moment->from_sun,
+    };
     fill_maps(stage->scene, &pictures, time_s, &inputs.shapes);
     if (pictures.sky.width)
         light_by_image(stage, inputs.shapes.sky_map.y, &inputs.block);

@@ -113,16 +113,14 @@ static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
         .view = &inputs->view,
         .backdrop = &inputs->block,
         .shapes = &inputs->shapes,
+        .from_sun = inputs->from_sun,
         .floor_image = cpu->floor_image,
         .sky_image = cpu->sky_image,
         .smoke_to_sun = lighting->smoke ? lighting->sun_depth : NULL,
         .smoke_to_sky = lighting->smoke ? lighting->sky_depth : NULL,
         .solids = lighting->solids,
         .meshes = cpu->meshes ? kiln_meshes_cpu_view(cpu->meshes) : NULL,
-        .lamp_objects = {.box_count = inputs->block.counts.x,
-                         .box_center = inputs->block.box_center,
-                         .box_half = inputs->block.box_half,
-                         .shapes = &inputs->shapes,
+        .lamp_objects = {.shapes = &inputs->shapes,
                          .maps = lighting->lamp_maps,
                          .solid_maps = lighting->lamp_solids.texels},
         .object_bounds = &cpu->object_bounds,
@@ -130,19 +128,18 @@ static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
         .casters = &cpu->casters,
         .lamp_smoke = lighting->lamp_smoke,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
-        .soft_sun = features.soft_sun,
     };
     return frame;
 }
 
-/* ---- pixels of objects ----------------------------------------------------------------------- */
+/* ---- pixels of shapes ------------------------------------------------------------------------ */
 
 static int32_t pixel_within(float x, float size)
 {
     return (int32_t)exact_clamp(x, 0.0f, size);
 }
 
-/* Returns the pixels that an object may cover, with a margin of a few pixels. number: among the
+/* Returns the pixels that a shape may cover, with a margin of a few pixels. number: among the
  * bounds. */
 static struct kiln_pixel_box cover_bounds(const struct kiln_view *view,
                                           const struct kiln_object_bounds *bounds, uint32_t number)
@@ -175,26 +172,6 @@ static struct kiln_pixel_box cover_bounds(const struct kiln_view *view,
     return (struct kiln_pixel_box){
         pixel_within(low[0] - margin, width), pixel_within(high[0] + margin, width),
         pixel_within(low[1] - margin, height), pixel_within(high[1] + margin, height)};
-}
-
-static void find_boxes(struct kiln_backdrop_picture *picture)
-{
-    const struct kiln_ray_frame *frame = picture->frame;
-    const struct kiln_object_bounds *bounds = frame->object_bounds;
-    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
-    const struct {
-        uint32_t count;
-        struct kiln_pixel_box *boxes;
-    } kinds[] = {{frame->backdrop->counts.x, picture->boxes}, /* in the order of the bounds */
-                 {round.x, picture->spheres},
-                 {round.y, picture->cylinders},
-                 {oriented.x, picture->capsules},
-                 {oriented.y, picture->oriented_boxes}};
-    uint32_t number = 0;
-    for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++) {
-        for (uint32_t i = 0; i < kinds[kind].count; i++)
-            kinds[kind].boxes[i] = cover_bounds(frame->view, bounds, number++);
-    }
 }
 
 /* ---- the picture ----------------------------------------------------------------------------- */
@@ -230,8 +207,8 @@ bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
         return true;
     if (cpu->cache)
         kiln_surface_cache_begin(cpu->cache, inputs);
-    const bool is_cached = cpu->cache && cpu->cache->use != KILN_CACHE_UNUSED;
-    if (cpu->meshes && !(is_cached && cpu->cache->use == KILN_CACHE_FILLED) &&
+    const enum kiln_cache_use use = cpu->cache ? cpu->cache->use : KILN_CACHE_UNUSED;
+    if (cpu->meshes && use != KILN_CACHE_FILLED &&
         !kiln_meshes_cpu_run(cpu->meshes, &inputs->view, &inputs->block, &inputs->shapes, error))
         return false;
     struct kiln_backdrop_picture picture = {
@@ -240,13 +217,15 @@ bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
         .height = cpu->color->height,
         .color = kiln_image_host(cpu->color, KILN_OVERWRITE, error),
         .surfaces = cpu->surfaces,
-        .cache = is_cached ? cpu->cache : NULL,
+        .use = use,
+        .cache = cpu->cache,
     };
     if (picture.color)
         picture.depth = kiln_image_host(cpu->depth, KILN_OVERWRITE, error);
     if (!picture.depth)
         return false;
-    find_boxes(&picture);
+    for (uint32_t i = 0; i < inputs->shapes.counts.x; i++)
+        picture.boxes[i] = cover_bounds(&inputs->view, &cpu->object_bounds, i);
     struct job job = {&picture, cpu->rows};
     size_t tiles = (picture.height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
     return kiln_threads_try(cpu->threads, tiles, 1, cast, &job, error) &&

@@ -10,7 +10,8 @@ struct kiln_backdrop_inputs {
     struct kiln_view view;
     struct kiln_draw_backdrop block;
     struct kiln_draw_shapes shapes;
-    uint64_t paint; /* kiln_painted_all_changes; 0: no mesh takes paint */
+    const struct kiln_shape_seen *from_sun; /* of each shape; borrowed from the moment */
+    uint64_t paint;                         /* kiln_painted_all_changes; 0: no mesh takes paint */
 };
 
 struct kiln_picture_size {

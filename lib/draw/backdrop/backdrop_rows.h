@@ -7,7 +7,7 @@
 #include "draw/backdrop/ray.h"
 #include "draw/backdrop/surface_cache.h"
 
-/* Holds the range of pixels, from .. to - 1, in which an object may be seen. */
+/* Holds the range of pixels, from .. to - 1, in which a shape may be seen. */
 struct kiln_pixel_box {
     int32_t x_from, x_to, y_from, y_to;
 };
@@ -15,12 +15,12 @@ struct kiln_pixel_box {
 struct kiln_backdrop_picture {
     const struct kiln_ray_frame *frame;
     uint32_t width, height;
-    float *color;    /* RGBA */
-    float *depth;    /* m */
-    float *surfaces; /* the number of each pixel by which edges are found (draw_layout.h) */
-    struct kiln_surface_cache *cache; /* NULL: nothing is kept */
-    struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], spheres[KILN_MAX_OBJECTS],
-        cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], oriented_boxes[KILN_MAX_OBJECTS];
+    float *color;            /* RGBA */
+    float *depth;            /* m */
+    float *surfaces;         /* the number of each pixel by which edges are found (draw_layout.h) */
+    enum kiln_cache_use use; /* of the cache for this picture */
+    struct kiln_surface_cache *cache;              /* NULL: it is unused */
+    struct kiln_pixel_box boxes[KILN_MAX_OBJECTS]; /* of shapes */
 };
 
 /* Each function draws KILN_EDGE_TILE rows from row y. */

@@ -13,32 +13,18 @@ static_assert((int)KILN_CACHE_COLUMNS == (int)GRID_STEP, "the cache has the vect
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-static uint32_t objects_overlapping(const struct kiln_pixel_box boxes[KILN_MAX_OBJECTS],
-                                    uint32_t count, int32_t x, int32_t y, int32_t width)
+/* Returns the shapes that may be visible in TILE + 1 rows from y, in `width` columns from x. */
+static uint32_t find_shapes(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
+                            uint32_t width)
 {
-    uint32_t overlapping = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const struct kiln_pixel_box *b = &boxes[i];
-        if (b->x_from < x + width && b->x_to > x && b->y_from <= y + TILE && b->y_to > y)
-            overlapping |= 1u << i;
+    const int32_t left = (int32_t)x, top = (int32_t)y, right = left + (int32_t)width;
+    uint32_t shapes = 0;
+    for (uint32_t i = 0; i < p->frame->shapes->counts.x; i++) {
+        const struct kiln_pixel_box *b = &p->boxes[i];
+        if (b->x_from < right && b->x_to > left && b->y_from <= top + TILE && b->y_to > top)
+            shapes |= 1u << i;
     }
-    return overlapping;
-}
-
-/* Returns the objects that may be visible in TILE + 1 rows from y, in `width` columns from x. */
-static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *p, uint32_t x,
-                                            uint32_t y, uint32_t width)
-{
-    const struct kiln_ray_frame *frame = p->frame;
-    int32_t left = (int32_t)x, top = (int32_t)y, columns = (int32_t)width;
-    return (struct kiln_ray_objects){
-        objects_overlapping(p->boxes, frame->backdrop->counts.x, left, top, columns),
-        objects_overlapping(p->spheres, frame->shapes->counts.x, left, top, columns),
-        objects_overlapping(p->cylinders, frame->shapes->counts.y, left, top, columns),
-        objects_overlapping(p->capsules, frame->shapes->oriented_counts.x, left, top, columns),
-        objects_overlapping(p->oriented_boxes, frame->shapes->oriented_counts.y, left, top,
-                            columns),
-        first_bits(frame->shapes->oriented_counts.z)};
+    return shapes;
 }
 
 /* Returns the lights that objects may hide and whose shadows are not in the cache. */
@@ -46,15 +32,12 @@ static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture 
                                              const struct kiln_casters *casters)
 {
     const struct kiln_draw_backdrop *b = p->frame->backdrop;
-    const struct kiln_draw_shapes *s = p->frame->shapes;
-    const uint32_t objects = b->counts.x + s->counts.x + s->counts.y + s->counts.z +
-                             s->oriented_counts.x + s->oriented_counts.y;
-    struct grid_lights lights = {.sky = objects > 0};
+    struct grid_lights lights = {.sky = kiln_shapes_under_sky(p->frame->shapes) > 0};
     for (uint32_t i = 0; i < b->counts.y; i++) {
         if (casters->lamps[i] | b->lights[i].casters.y)
             lights.lamps |= 1u << i;
     }
-    if (p->cache && p->cache->use == KILN_CACHE_FILLED)
+    if (p->use == KILN_CACHE_FILLED)
         lights = (struct grid_lights){lights.lamps & ~p->cache->lamps, false};
     return lights;
 }
@@ -71,16 +54,14 @@ SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, co
     }
     const struct ray reflected = {at, floor_reflection_along(frame, ray).at.direction};
     const struct ray_place nowhere = {.layer = -1};
-    const struct kiln_ray_objects objects = all_objects(frame);
-    const struct ray_hit seen =
-        trace(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
+    const uint32_t shapes = all_shapes(frame);
+    const struct ray_hit seen = trace(frame, shapes, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
     place_nodes(first, &seen, ray_at(&reflected, seen.t), floor, mirrored);
 }
 
 /* Places the nodes of the strip at (x, y), and of its reflections (NULL: none). */
-static void place_grids(const struct kiln_backdrop_picture *p,
-                        const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
-                        struct light_grid *grid, struct light_grid *mirrored)
+static void place_grids(const struct kiln_backdrop_picture *p, uint32_t shapes, uint32_t x,
+                        uint32_t y, struct light_grid *grid, struct light_grid *mirrored)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
@@ -93,7 +74,7 @@ static void place_grids(const struct kiln_backdrop_picture *p,
         row = vi_select(row < height, row, height - 1);
         const struct eye_rays eye = rays_through_pixels(frame, column, row);
         const struct ray_hit hit =
-            trace(frame, objects, &eye.ray, find_floor(frame, &eye.ray), &eye.place);
+            trace(frame, shapes, &eye.ray, find_floor(frame, &eye.ray), &eye.place);
         place_nodes(i, &hit, ray_at(&eye.ray, hit.t), within, grid);
         if (mirrored)
             place_mirrored_nodes(frame, i, &eye.ray, &hit, within, mirrored);
@@ -125,8 +106,7 @@ struct strip_pixels {
     uint32_t x, y;          /* of the first pixel */
     uint32_t columns, rows; /* that are in the picture */
     struct eye_rays eye;
-    struct cached_rays planes;
-    const struct cached_rays *cached; /* NULL: nothing is kept */
+    struct cached_rays cached;
 };
 
 /* Begins with vector i of the strip at (x, y). Returns false if it is beside the picture. */
@@ -147,11 +127,7 @@ SIMD bool begin_pixels(const struct kiln_backdrop_picture *p, uint32_t x, uint32
     pixels->eye =
         rays_through_pixels(p->frame, vi_select(column < last_column, column, last_column),
                             vi_select(row < last_row, row, last_row));
-    pixels->cached = NULL;
-    if (p->cache) {
-        pixels->planes = cached_centers(p->cache, x, y);
-        pixels->cached = &pixels->planes;
-    }
+    pixels->cached = cached_centers(p->cache, p->use, x, y);
     return true;
 }
 
@@ -166,19 +142,17 @@ SIMD void store_pixels(const struct kiln_backdrop_picture *p, const struct strip
                columns * sizeof *to);
 }
 
-/* Returns where the cache keeps the box around what the strip at (x, y) shows; NULL without a
- * cache. */
+/* Returns where the cache keeps the box around what the strip at (x, y) shows. */
 static struct kiln_lit_box *box_in_cache(const struct kiln_surface_cache *cache, uint32_t x,
                                          uint32_t y)
 {
-    return cache ? &cache->strips[((size_t)y / TILE * cache->width + x) / STRIP] : NULL;
+    return &cache->strips[((size_t)y / TILE * cache->width + x) / STRIP];
 }
 
 /* Finds what the pixels of the strip at (x, y) show. Returns a box around it and the grid's nodes
  * (NULL: none). */
-static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
-                                       const struct kiln_ray_objects *objects, uint32_t x,
-                                       uint32_t y, const struct light_grid *grid,
+static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p, uint32_t shapes,
+                                       uint32_t x, uint32_t y, const struct light_grid *grid,
                                        struct strip_hits *strip)
 {
     struct lit_vectors lit = no_lit_vectors();
@@ -190,7 +164,7 @@ static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
         if (!begin_pixels(p, x, y, i, &pixels))
             continue;
         const struct ray_hit hit =
-            find_hit(p->frame, objects, &pixels.eye.ray, &pixels.eye.place, pixels.cached);
+            find_hit(p->frame, shapes, &pixels.eye.ray, &pixels.eye.place, &pixels.cached);
         add_lit(&lit, ray_at(&pixels.eye.ray, hit.t), hit.surface >= 0.0f);
         strip->hits[i] = hit;
     }
@@ -208,11 +182,11 @@ static void light_strip(const struct kiln_backdrop_picture *p, uint32_t x, uint3
         if (!begin_pixels(p, x, y, i, &pixels))
             continue;
         const struct grid_pixels in_grid = {grid, mirrored, pixels.x - x, pixels.y - y};
-        const struct ray_help help = {grid ? &in_grid : NULL, pixels.cached};
+        const struct ray_help help = {grid ? &in_grid : NULL, &pixels.cached};
         const struct ray_hit hit =
-            is_filled(pixels.cached) ? read_cached_hit(pixels.cached) : strip->hits[i];
+            p->use == KILN_CACHE_FILLED ? read_cached_hit(&pixels.cached) : strip->hits[i];
         const struct shaded_rays shaded = shade_hits(frame, &pixels.eye.ray, &hit, &help);
-        const vf surface = mark_surfaces(frame, &pixels.eye, &hit, pixels.cached);
+        const vf surface = mark_surfaces(frame, &pixels.eye, &hit, &pixels.cached);
         _Alignas(64) float colors[4 * LANES], depths[LANES], surfaces[LANES];
         store_colors(colors, &shaded.color);
         vf_store(depths, hit.t);
@@ -223,15 +197,12 @@ static void light_strip(const struct kiln_backdrop_picture *p, uint32_t x, uint3
     }
 }
 
-/* Returns whether a strip needs a grid although no shadow is interpolated. kept: its box in the
- * cache, or NULL; filled: the box holds. A box that is kept has nodes in it, since smoke may come
- * later. */
-static bool needs_grid(const struct kiln_ray_frame *frame, const struct kiln_lit_box *kept,
-                       bool filled)
+/* Returns whether a strip needs a grid although no shadow is interpolated. A box that is to be kept
+ * has nodes in it, since smoke may come later. box: around what the strip shows, if it is kept. */
+static bool needs_grid(const struct kiln_backdrop_picture *p, const struct kiln_lit_box *box)
 {
-    if (kept && !filled)
-        return true;
-    return is_smoky(frame, frame->floor_gloss ? NULL : kept); /* reflections lie beside the box */
+    const bool anywhere = p->use != KILN_CACHE_FILLED || p->frame->floor_gloss; /* reflections */
+    return p->use == KILN_CACHE_TO_FILL || is_smoky(p->frame, anywhere ? NULL : box);
 }
 
 static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
@@ -240,33 +211,33 @@ static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
     struct kiln_ray_frame frame = *whole->frame;
     picture.frame = &frame;
     const struct grid_lights all = find_shadow_lights(whole, frame.all_casters);
-    struct light_grid grid, reflections;
+    struct light_grid room, mirrored_room;
     struct strip_hits strip;
+    struct kiln_lit_box fresh;
     for (uint32_t x = 0; x < whole->width; x += STRIP) {
-        struct kiln_lit_box *kept = box_in_cache(whole->cache, x, y);
-        const bool filled = kept && whole->cache->use == KILN_CACHE_FILLED;
-        const bool has_grid = all.lamps || all.sky || needs_grid(&frame, kept, filled);
-        struct light_grid *mirrored = has_grid && frame.floor_gloss ? &reflections : NULL;
+        struct kiln_lit_box *lit =
+            whole->use == KILN_CACHE_UNUSED ? &fresh : box_in_cache(whole->cache, x, y);
+        const bool has_grid = all.lamps || all.sky || needs_grid(whole, lit);
+        struct light_grid *grid = has_grid ? &room : NULL;
+        struct light_grid *mirrored = has_grid && frame.floor_gloss ? &mirrored_room : NULL;
         /* with a column and a row more, for the nodes */
-        const struct kiln_ray_objects objects = find_objects(whole, x, y, STRIP + 1);
-        if (has_grid)
-            place_grids(whole, &objects, x, y, &grid, mirrored);
-        const struct kiln_lit_box lit =
-            filled ? *kept : trace_strip(whole, &objects, x, y, has_grid ? &grid : NULL, &strip);
-        if (kept)
-            *kept = lit;
-        const struct kiln_casters casters = find_casters(whole->frame, &lit);
+        const uint32_t shapes = find_shapes(whole, x, y, STRIP + 1);
+        if (grid)
+            place_grids(whole, shapes, x, y, grid, mirrored);
+        if (whole->use != KILN_CACHE_FILLED)
+            *lit = trace_strip(whole, shapes, x, y, grid, &strip);
+        const struct kiln_casters casters = find_casters(whole->frame, lit);
         frame.casters = &casters;
-        if (has_grid) {
+        if (grid) {
             KILN_SIMD_NAME(kiln_rays_judge_grid)
-            (&frame, find_shadow_lights(&picture, &casters), &grid);
-            KILN_SIMD_NAME(kiln_rays_judge_smoke)(&frame, &lit, &grid);
+            (&frame, find_shadow_lights(&picture, &casters), grid);
+            KILN_SIMD_NAME(kiln_rays_judge_smoke)(&frame, lit, grid);
         }
         if (mirrored) {
             KILN_SIMD_NAME(kiln_rays_judge_grid)(whole->frame, all, mirrored);
             KILN_SIMD_NAME(kiln_rays_judge_smoke)(whole->frame, NULL, mirrored);
         }
-        light_strip(&picture, x, y, has_grid ? &grid : NULL, mirrored, &strip);
+        light_strip(&picture, x, y, grid, mirrored, &strip);
     }
 }
 
@@ -298,7 +269,7 @@ static bool add_to_cache(const struct kiln_surface_cache *cache, struct kiln_cac
     memcpy(edges->rows + (size_t)edges->count * LANES, &row, sizeof row);
     for (int i = 0; i < LANES; i++)
         cache->flags[(size_t)row[i] * cache->width + (size_t)column[i]] |= KILN_PIXEL_IS_CACHED;
-    *cached = cached_samples(cache, edges, edges->count++, false);
+    *cached = cached_samples(cache, edges, edges->count++, KILN_CACHE_TO_FILL);
     return true;
 }
 
@@ -307,7 +278,7 @@ static void light_cached_edges(const struct kiln_backdrop_picture *p,
                                const struct kiln_cached_edges *edges, uint32_t count)
 {
     const struct kiln_surface_cache *cache = p->cache;
-    const struct kiln_ray_objects none = {0};
+    const uint32_t none = 0;
     for (uint32_t k = 0; k < count; k++) {
         vi column, row;
         memcpy(&column, edges->columns + (size_t)k * LANES, sizeof column);
@@ -318,8 +289,8 @@ static void light_cached_edges(const struct kiln_backdrop_picture *p,
                          KILN_PIXEL_IS_EDGE) != 0);
         if (!any(edge))
             continue;
-        const struct cached_rays cached = cached_samples(cache, edges, k, true);
-        antialias_cached(p, &none, column, row, edge, &cached);
+        const struct cached_rays cached = cached_samples(cache, edges, k, KILN_CACHE_FILLED);
+        antialias_cached(p, none, column, row, edge, &cached);
     }
 }
 
@@ -338,7 +309,7 @@ static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, 
 {
     if (count == 0)
         return;
-    const struct kiln_ray_objects objects = find_objects(p, x, y, EDGE_STRIP);
+    const uint32_t shapes = find_shapes(p, x, y, EDGE_STRIP);
     for (int i = 1; i < LANES; i++) { /* the last vector repeats its last pixel */
         at[0][count - 1 + i] = at[0][count - 1];
         at[1][count - 1 + i] = at[1][count - 1];
@@ -349,18 +320,19 @@ static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, 
         const vi column = vi_load(at[0] + i), row = vi_load(at[1] + i);
         if (!add_to_cache(p->cache, edges, column, row, &cached))
             break;
-        antialias_cached(p, &objects, column, row, vi_count() < count - i, &cached);
+        antialias_cached(p, shapes, column, row, vi_count() < count - i, &cached);
     }
     for (; i < count; i += SAMPLED_PIXELS) {
         const int some = count - i < SAMPLED_PIXELS ? count - i : SAMPLED_PIXELS;
-        antialias_together(p, &objects, some, at[0] + i, at[1] + i);
+        antialias_together(p, shapes, some, at[0] + i, at[1] + i);
     }
 }
 
 static void antialias_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
     int32_t at[2][EDGE_ROOM];
-    struct kiln_cached_edges *edges = p->cache ? &p->cache->edges[y / TILE] : NULL;
+    struct kiln_cached_edges *edges =
+        p->use == KILN_CACHE_UNUSED ? NULL : &p->cache->edges[y / TILE];
     const uint32_t cached = edges ? edges->count : 0;
     if (edges)
         forget_edges(p->cache, y, rows_from(p, y));

@@ -23,59 +23,16 @@ static void put(struct kiln_object_bounds *bounds, uint32_t number, float4 cente
     }
 }
 
-/* Adds the box around a cylinder, or around a capsule: around balls at its ends. radii: of the
- * bounds around each end along the axes of the world, m. */
-static void put_around_axis(struct kiln_object_bounds *bounds, uint32_t number, float4 center,
-                            float4 axis, const float radii[3])
+static void put_shapes(struct kiln_object_bounds *bounds, const struct kiln_draw_shapes *s)
 {
-    const float half[3] = {fabsf(axis.x) * axis.w + radii[0], fabsf(axis.y) * axis.w + radii[1],
-                           fabsf(axis.z) * axis.w + radii[2]};
-    put(bounds, number, center, half);
-}
-
-/* along: of the disc's unit normal. */
-static float disc_extent(float radius, float along)
-{
-    return radius * sqrtf(fmaxf(1.0f - along * along, 0.0f)) + ROUNDING * radius;
-}
-
-static uint32_t put_round(struct kiln_object_bounds *bounds, uint32_t number,
-                          const struct kiln_draw_shapes *s)
-{
+    static const float3 axes[3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     for (uint32_t i = 0; i < s->counts.x; i++) {
-        const float radius = s->spheres[i].w;
-        put(bounds, number++, s->spheres[i], (float[]){radius, radius, radius});
+        const struct kiln_draw_shape *shape = &s->shapes[i];
+        float half[3];
+        for (int k = 0; k < 3; k++)
+            half[k] = kiln_shape_reach(shape, axes[k]) + ROUNDING * shape->center.w;
+        put(bounds, i, shape->center, half);
     }
-    for (uint32_t i = 0; i < s->counts.y; i++) {
-        const float radius = s->cylinders[i].w;
-        const float4 axis = s->cylinder_axis[i];
-        put_around_axis(bounds, number++, s->cylinders[i], axis,
-                        (float[]){disc_extent(radius, axis.x), disc_extent(radius, axis.y),
-                                  disc_extent(radius, axis.z)});
-    }
-    return number;
-}
-
-static uint32_t put_oriented(struct kiln_object_bounds *bounds, uint32_t number,
-                             const struct kiln_draw_shapes *s)
-{
-    for (uint32_t i = 0; i < s->oriented_counts.x; i++) {
-        const float radius = (1.0f + ROUNDING) * s->capsules[i].w;
-        put_around_axis(bounds, number++, s->capsules[i], s->capsule_axis[i],
-                        (float[]){radius, radius, radius});
-    }
-    for (uint32_t i = 0; i < s->oriented_counts.y; i++) {
-        const struct kiln_draw_oriented_box *box = &s->oriented_boxes[i];
-        const float sizes[3] = {box->half_size.x, box->half_size.y, box->half_size.z};
-        float half[3] = {0};
-        for (int k = 0; k < 3; k++) {
-            half[0] += fabsf(box->rows[k].x) * sizes[k];
-            half[1] += fabsf(box->rows[k].y) * sizes[k];
-            half[2] += fabsf(box->rows[k].z) * sizes[k];
-        }
-        put(bounds, number++, box->center, half);
-    }
-    return number;
 }
 
 static void put_meshes(struct kiln_object_bounds *bounds, const struct kiln_draw_shapes *s)
@@ -94,17 +51,11 @@ void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_ob
 {
     const struct kiln_draw_backdrop *b = &inputs->block;
     memset(bounds, 0, sizeof *bounds);
-    uint32_t count = 0;
-    for (; count < b->counts.x; count++) {
-        const float4 half = b->box_half[count];
-        put(bounds, count, b->box_center[count], (float[]){half.x, half.y, half.z});
-    }
-    count = put_round(bounds, count, &inputs->shapes);
-    count = put_oriented(bounds, count, &inputs->shapes);
+    put_shapes(bounds, &inputs->shapes);
     put_meshes(bounds, &inputs->shapes);
     memset(casters, 0, sizeof *casters);
-    casters->sun_objects = first_bits(count);
-    casters->sun_meshes = first_bits(inputs->shapes.counts.z);
+    casters->sun_objects = kiln_shapes_that_hide(&inputs->shapes);
+    casters->sun_meshes = (1u << inputs->shapes.counts.z) - 1;
     for (uint32_t i = 0; i < b->counts.y; i++)
         casters->lamps[i] = b->lights[i].casters.x;
 }

@@ -18,6 +18,7 @@ struct kiln_ray_frame {
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_draw_shapes *shapes;
+    const struct kiln_shape_seen *from_sun;             /* of each shape */
     const struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
     const float *smoke_to_sun, *smoke_to_sky;           /* NULL: none */
     struct kiln_solid_bins solids;
@@ -27,30 +28,13 @@ struct kiln_ray_frame {
     const struct kiln_casters *all_casters; /* what may hide lights from anything */
     const struct kiln_casters *casters;     /* what may hide them from the surfaces that are lit */
     const float *lamp_smoke;                /* of struct kiln_lighting */
-    bool floor_gloss, soft_sun;
+    bool floor_gloss;
 };
 
-/* Holds the objects that rays may hit, a bit for each. */
-struct kiln_ray_objects {
-    uint32_t boxes, spheres, cylinders, capsules, oriented_boxes, planes;
-};
-
-/* Returns the lowest bits, one for each of `count` objects. */
-static inline uint32_t first_bits(uint32_t count)
+/* Returns a bit for each shape of a frame. */
+static inline uint32_t all_shapes(const struct kiln_ray_frame *frame)
 {
-    return (uint32_t)((1ull << count) - 1);
-}
-
-/* Returns all objects of a frame. */
-static inline struct kiln_ray_objects all_objects(const struct kiln_ray_frame *frame)
-{
-    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
-    return (struct kiln_ray_objects){first_bits(frame->backdrop->counts.x),
-                                     first_bits(round.x),
-                                     first_bits(round.y),
-                                     first_bits(oriented.x),
-                                     first_bits(oriented.y),
-                                     first_bits(oriented.z)};
+    return (uint32_t)((1ull << frame->shapes->counts.x) - 1);
 }
 
 #endif

@@ -7,14 +7,20 @@
 
 /* Describes the planes of a vector of rays. */
 struct cached_rays {
-    const struct kiln_surface_cache *cache;
+    enum kiln_cache_use use;
+    const struct kiln_surface_cache *cache; /* unset if it is not used, as the planes are */
     float *planes;
-    bool filled; /* the planes hold; else they are to be filled */
 };
+
+/* Describes rays of which nothing is kept. */
+SIMD struct cached_rays not_cached(void)
+{
+    return (struct cached_rays){.use = KILN_CACHE_UNUSED};
+}
 
 SIMD bool is_filled(const struct cached_rays *rays)
 {
-    return rays && rays->filled;
+    return rays->use == KILN_CACHE_FILLED;
 }
 
 SIMD vf read_cached(const struct cached_rays *rays, uint32_t plane)
@@ -28,10 +34,10 @@ SIMD struct vf3 read_cached3(const struct cached_rays *rays, uint32_t plane)
                         read_cached(rays, plane + 2)};
 }
 
-/* Fills a plane; does nothing without a cache. */
+/* Fills a plane if it is to be filled. */
 SIMD void fill_cached(const struct cached_rays *rays, uint32_t plane, vf x)
 {
-    if (rays)
+    if (rays->use == KILN_CACHE_TO_FILL)
         vf_store(rays->planes + (size_t)plane * LANES, x);
 }
 
@@ -61,7 +67,7 @@ SIMD void fill_cached_hit(const struct cached_rays *rays, const struct ray_hit *
 /* Returns the plane of lamp i; 0: it has none that holds. */
 SIMD uint32_t plane_of_lamp(const struct cached_rays *rays, uint32_t i)
 {
-    if (!rays || !(rays->cache->lamps >> i & 1))
+    if (rays->use == KILN_CACHE_UNUSED || !(rays->cache->lamps >> i & 1))
         return 0;
     const uint32_t before = rays->cache->has_plane & ((1u << i) - 1);
     return rays->cache->first_lamp + (uint32_t)__builtin_popcount(before);
@@ -71,27 +77,29 @@ SIMD uint32_t plane_of_lamp(const struct cached_rays *rays, uint32_t i)
 SIMD struct cached_rays cached_reflections(const struct cached_rays *rays)
 {
     struct cached_rays reflections = *rays;
-    reflections.planes += (size_t)rays->cache->planes * LANES;
+    if (rays->use != KILN_CACHE_UNUSED)
+        reflections.planes += (size_t)rays->cache->planes * LANES;
     return reflections;
 }
 
 /* Returns the planes of the vector whose first pixel is at (x, y). */
-SIMD struct cached_rays cached_centers(const struct kiln_surface_cache *cache, uint32_t x,
-                                       uint32_t y)
+SIMD struct cached_rays cached_centers(const struct kiln_surface_cache *cache,
+                                       enum kiln_cache_use use, uint32_t x, uint32_t y)
 {
+    if (use == KILN_CACHE_UNUSED)
+        return not_cached();
     const uint32_t rows = LANES / KILN_CACHE_COLUMNS;
     const size_t vector = ((size_t)(y / rows) * cache->width + x) / KILN_CACHE_COLUMNS;
-    return (struct cached_rays){cache, cache->centers + vector * kiln_cache_ray(cache),
-                                cache->use == KILN_CACHE_FILLED};
+    return (struct cached_rays){use, cache, cache->centers + vector * kiln_cache_ray(cache)};
 }
 
 /* Returns the planes of the first sample of a vector of pixels at edges. */
 SIMD struct cached_rays cached_samples(const struct kiln_surface_cache *cache,
                                        const struct kiln_cached_edges *edges, uint32_t vector,
-                                       bool filled)
+                                       enum kiln_cache_use use)
 {
     const size_t first = (size_t)vector * KILN_EDGE_SAMPLES * kiln_cache_ray(cache);
-    return (struct cached_rays){cache, edges->rays + first, filled};
+    return (struct cached_rays){use, cache, edges->rays + first};
 }
 
 /* Returns the planes of another sample. first: of the first one. */

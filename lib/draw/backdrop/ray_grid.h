@@ -106,10 +106,10 @@ SIMD void light_nodes(const struct kiln_ray_frame *frame, uint32_t i, int first,
     const struct vf3 towards = vf3_towards(lamp->position_radius2, at);
     const vi faces =
         (vf_load(grid->surface + first) >= 0.0f) & (lamp_irradiance(*lamp, towards, normal) > 0.0f);
-    struct lamp_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
+    struct light_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
     if (any(faces))
         lit = lamp_receiver_of(&frame->lamp_objects, lamp, frame->casters->lamps[i],
-                               vf3_add_scaled(at, normal, vf_all(LAMP_START)), normal, NULL,
+                               vf3_add_scaled(at, normal, vf_all(LIGHT_START)), normal, NULL,
                                vf_all(0.0f), faces);
     vf_store(grid->seen[i] + first, vf_select(faces, lit.visible, vf_all(-1.0f)));
     vf_store(grid->blur[i] + first, lit.blur);
@@ -141,82 +141,21 @@ SIMD vi on_same_piece(struct vf3 at, struct vf3 normal, struct vf3 other, struct
            (off * off <= GRID_ALIKE_SLOPE * GRID_ALIKE_SLOPE * size2);
 }
 
-/* Returns the lanes where a shape has a penumbra that is as wide as the ball that is lit. distance:
- * from the ball's centre to the shape, m. */
-SIMD vi has_wide_penumbra(const struct lamp_way *way, vf distance)
+/* Returns the lanes where a shape may cast a sharp shadow on a block of a surface. */
+SIMD vi casts_sharply(const struct kiln_draw_shape *shape, struct vf3 towards,
+                      const struct light_way *way, struct vf3 normal)
 {
-    return distance * (way->radius / way->reach) >= way->lit;
-}
-
-/* Returns the lanes where a shape hides nothing of the lamp from a ball, or has a wide penumbra
- * there. towards, size: of the shape's bounding sphere; distance: from the ball's centre to the
- * shape, m. */
-SIMD vi casts_smoothly(const struct lamp_way *way, struct vf3 towards, float size, vf distance)
-{
-    return ~lamp_meets(towards, size, *way) | has_wide_penumbra(way, distance);
-}
-
-/* Return the distance from a point to a shape, m; 0 inside of it. towards: the way to the shape's
- * centre, for a box along its axes. */
-SIMD vf distance_to_box(struct vf3 towards, float4 half)
-{
-    const struct vf3 beside = {vf_max(vf_abs(towards.x) - half.x, vf_all(0.0f)),
-                               vf_max(vf_abs(towards.y) - half.y, vf_all(0.0f)),
-                               vf_max(vf_abs(towards.z) - half.z, vf_all(0.0f))};
-    return vf3_length(beside);
-}
-
-SIMD vf distance_to_cylinder(struct vf3 towards, float radius, float4 axis)
-{
-    const vf along = vf3_dot_all(towards, axis);
-    const vf across = vf3_length(vf3_add_scaled(towards, vf3_all(axis), -along));
-    const vf aside = vf_max(across - radius, vf_all(0.0f));
-    const vf above = vf_max(vf_abs(along) - axis.w, vf_all(0.0f));
-    return vf_sqrt(aside * aside + above * above);
-}
-
-SIMD vf distance_to_capsule(struct vf3 towards, float radius, float4 axis)
-{
-    const vf along = vf_clamp(vf3_dot_all(towards, axis), -axis.w, axis.w);
-    const vf middle = vf3_length(vf3_add_scaled(towards, vf3_all(axis), -along));
-    return vf_max(middle - radius, vf_all(0.0f));
-}
-
-/* Returns the lanes where a block of a surface and a lamp are both beyond one side of a box, which
- * then hides nothing. The block may lie on this side. towards: the way to the box's centre;
- * to_lamp, normal: the way to the lamp, and the surface's normal; all along the box's axes. size:
- * of the block, m. */
-SIMD vi is_beside(float4 half, struct vf3 towards, struct vf3 to_lamp, struct vf3 normal, vf size)
-{
-    const float halves[3] = {half.x, half.y, half.z};
-    const vf ways[3] = {towards.x, towards.y, towards.z};
-    const vf lamps[3] = {to_lamp.x, to_lamp.y, to_lamp.z};
-    const vf normals[3] = {normal.x, normal.y, normal.z};
-    vi beside = vi_all(0);
-    for (int i = 0; i < 3; i++) {
-        const vf margin = size * vf_sqrt(vf_max(1.0f - normals[i] * normals[i], vf_all(0.0f)));
-        const vf least = margin + (halves[i] - LAMP_START);
-        const vf block = -ways[i], source = lamps[i] - ways[i];
-        beside |= (block >= least) & (source >= halves[i]);
-        beside |= (-block >= least) & (-source >= halves[i]);
+    switch (shape->kind.x) {
+#define SHARP(KIND, name)                                                                          \
+    case SHAPE_##KIND: {                                                                           \
+        const struct name##_seen seen = name##_seen_along(*shape, way->direction);                 \
+        const vi hides = name##_may_hide(*shape, seen, towards, *way);                             \
+        return any(hides) ? hides & ~name##_is_smooth(*shape, towards, *way, normal) : hides;      \
     }
-    return beside;
-}
-
-/* Returns what casts_smoothly does, for a box and a block of a surface, in the lanes of a mask; 0
- * in other lanes. towards, to_lamp, normal: as for is_beside. */
-SIMD vi box_casts_smoothly(const struct lamp_way *way, float4 half, struct vf3 towards,
-                           struct vf3 to_lamp, struct vf3 normal, vi mask)
-{
-    const struct vf3 direction = vf3_scale(to_lamp, 1.0f / way->reach);
-    const struct vf3 inverse = ray_inverse3(direction);
-    const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
-    vi sharp = mask & lamp_meets_box(&s, towards, half, direction, inverse, way);
-    if (any(sharp))
-        sharp &= ~has_wide_penumbra(way, distance_to_box(towards, half));
-    if (any(sharp))
-        sharp &= ~is_beside(half, towards, to_lamp, normal, way->lit);
-    return mask & ~sharp;
+        KILN_SHAPES(SHARP)
+#undef SHARP
+    }
+    return vi_all(0);
 }
 
 /* Returns the lanes of a mask where all shapes cast smooth shadows on a block of a surface.
@@ -225,40 +164,14 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
                              const struct kiln_draw_light *lamp, uint32_t casters, struct vf3 at,
                              struct vf3 normal, vf size, vi smooth)
 {
-    const struct kiln_draw_shapes *shapes = objects->shapes;
-    const struct vf3 to_lamp = vf3_towards(lamp->position_radius2, at);
-    const struct lamp_way way = lamp_way_of(to_lamp, lamp->color.w, size);
-    for (uint32_t of = take_bits(&casters, objects->box_count); of; of &= of - 1) {
-        const float4 center = objects->box_center[__builtin_ctz(of)];
-        const float4 half = objects->box_half[__builtin_ctz(of)];
-        const struct vf3 towards = vf3_towards(center, at);
-        smooth = box_casts_smoothly(&way, half, towards, to_lamp, normal, smooth);
-    }
-    for (uint32_t of = take_bits(&casters, shapes->counts.x); of; of &= of - 1) {
-        const float4 sphere = shapes->spheres[__builtin_ctz(of)];
-        const struct vf3 towards = vf3_towards(sphere, at);
-        smooth &= casts_smoothly(&way, towards, sphere.w, vf3_length(towards) - sphere.w);
-    }
-    for (uint32_t of = take_bits(&casters, shapes->counts.y); of; of &= of - 1) {
-        const int i = __builtin_ctz(of);
-        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
-        const struct vf3 towards = vf3_towards(cylinder, at);
-        smooth &= casts_smoothly(&way, towards, cylinder_size(cylinder, axis),
-                                 distance_to_cylinder(towards, cylinder.w, axis));
-    }
-    for (uint32_t of = take_bits(&casters, shapes->oriented_counts.x); of; of &= of - 1) {
-        const int i = __builtin_ctz(of);
-        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
-        const struct vf3 towards = vf3_towards(capsule, at);
-        smooth &= casts_smoothly(&way, towards, capsule.w + axis.w,
-                                 distance_to_capsule(towards, capsule.w, axis));
-    }
-    for (uint32_t of = take_bits(&casters, shapes->oriented_counts.y); of; of &= of - 1) {
-        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(of)];
-        const struct vf3 towards = vf3_towards(box->center, at);
-        const struct vf3 to_box = into_box(box, towards);
-        smooth = box_casts_smoothly(&way, box->half_size, to_box, into_box(box, to_lamp),
-                                    into_box(box, normal), smooth);
+    const struct light_way way =
+        lamp_way_of(vf3_towards(lamp->position_radius2, at), lamp->color.w, size);
+    for (; casters && any(smooth); casters &= casters - 1) {
+        const struct kiln_draw_shape *shape = &objects->shapes->shapes[__builtin_ctz(casters)];
+        const struct vf3 towards = vf3_towards(shape->center, at);
+        const vi near = smooth & light_meets_sphere(way, towards, shape->center.w);
+        if (any(near))
+            smooth &= ~(near & casts_sharply(shape, towards, &way, normal));
     }
     return smooth;
 }

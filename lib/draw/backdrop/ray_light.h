@@ -33,7 +33,7 @@ struct lit_surface {
     const struct floor_reflection *gloss; /* how a glossy floor reflects lamps, or NULL */
     const struct vf3 *middle;             /* of the solid particles that it is of, or NULL */
     const struct grid_place *grid;        /* or NULL */
-    const struct cached_rays *cached;     /* or NULL */
+    const struct cached_rays *cached;
 };
 
 /* Computes the part of the sky that a surface sees past objects. */
@@ -64,7 +64,7 @@ SIMD vf find_lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const str
         return vf_select(known, seen, vf_all(1.0f));
     const struct ray_point *p = &s->point;
     const vf found = lamp_visibility(&frame->lamp_objects, lamp, frame->casters->lamps[i],
-                                     vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
+                                     vf3_add_scaled(p->at, p->normal, vf_all(LIGHT_START)),
                                      p->normal, s->middle, vf_all(0.0f), active);
     return vf_select(known, seen, found);
 }
@@ -216,8 +216,8 @@ SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 dir
 SIMD struct vf3 haze_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi active,
                            const struct cached_rays *cached)
 {
-    const uint32_t plane = cached ? cached->cache->haze : 0;
-    if (plane && cached->filled)
+    const uint32_t plane = cached->use == KILN_CACHE_UNUSED ? 0 : cached->cache->haze;
+    if (plane && is_filled(cached))
         return read_cached3(cached, plane);
     const struct vf3 haze = horizon_color(frame, direction, active);
     if (plane)

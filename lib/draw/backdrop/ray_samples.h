@@ -33,13 +33,12 @@ struct sample_pieces {
     vi of[SAMPLES];
 };
 
-SIMD struct placed_hit trace_place(const struct kiln_ray_frame *frame,
-                                   const struct kiln_ray_objects *objects,
+SIMD struct placed_hit trace_place(const struct kiln_ray_frame *frame, uint32_t shapes,
                                    const struct ray_place *place)
 {
     const struct ray ray = rays_at(frame, place).ray;
     struct placed_hit placed = {.place = *place};
-    placed.hit = trace(frame, objects, &ray, find_floor(frame, &ray), place);
+    placed.hit = trace(frame, shapes, &ray, find_floor(frame, &ray), place);
     placed.at = ray_at(&ray, placed.hit.t);
     return placed;
 }
@@ -56,16 +55,15 @@ SIMD vi share_piece(const struct placed_hit *a, const struct placed_hit *b)
 
 /* Traces the samples of pixels, and finds the pieces that they are on. center: the rays through
  * the centres of the pixels. */
-SIMD struct sample_pieces trace_samples(const struct kiln_ray_frame *frame,
-                                        const struct kiln_ray_objects *objects,
+SIMD struct sample_pieces trace_samples(const struct kiln_ray_frame *frame, uint32_t shapes,
                                         const struct ray_place *center,
                                         struct placed_hit samples[SAMPLES])
 {
-    const struct placed_hit middle = trace_place(frame, objects, center);
+    const struct placed_hit middle = trace_place(frame, shapes, center);
     struct sample_pieces pieces;
     for (int s = 0; s < SAMPLES; s++) {
         const struct ray_place place = sample_place(frame, center, s);
-        samples[s] = trace_place(frame, objects, &place);
+        samples[s] = trace_place(frame, shapes, &place);
         vi piece = vi_all(s + 1);
         for (int before = s - 1; before >= 0; before--)
             piece = vi_select(share_piece(&samples[before], &samples[s]), pieces.of[before], piece);
@@ -215,7 +213,8 @@ SIMD struct vf3 load_sample_vector(float (*from)[SHARED_ROOM], int at)
 /* Computes the colours of all samples. */
 SIMD void light_samples(const struct kiln_ray_frame *frame, struct shared_samples *all)
 {
-    const struct ray_help none = {NULL, NULL};
+    const struct cached_rays planes = not_cached();
+    const struct ray_help none = {NULL, &planes};
     if (all->count > 0)
         repeat_last(all);
     for (int at = 0; at < all->count; at += LANES) {
@@ -238,8 +237,7 @@ SIMD void light_samples(const struct kiln_ray_frame *frame, struct shared_sample
 
 /* Antialiases up to SAMPLED_PIXELS pixels, in whole vectors; of the last one, only the first lanes
  * are written. */
-static void antialias_together(const struct kiln_backdrop_picture *p,
-                               const struct kiln_ray_objects *objects, int count,
+static void antialias_together(const struct kiln_backdrop_picture *p, uint32_t shapes, int count,
                                const int32_t *columns, const int32_t *rows)
 {
     struct shared_samples all;
@@ -249,7 +247,7 @@ static void antialias_together(const struct kiln_backdrop_picture *p,
         struct placed_hit samples[SAMPLES];
         const struct ray_place center = rays_through_pixels(p->frame, column, row).place;
         struct sample_pieces *pieces = &all.pieces[i / LANES];
-        *pieces = trace_samples(p->frame, objects, &center, samples);
+        *pieces = trace_samples(p->frame, shapes, &center, samples);
         part_pieces(are_lit_evenly(p, column, row), pieces);
         for (int s = 0; s < SAMPLES; s++)
             add_samples(&all, &samples[s], s, i, needs_light(pieces, s));
@@ -272,13 +270,12 @@ static void antialias_together(const struct kiln_backdrop_picture *p,
 /* ---- pixels in the cache --------------------------------------------------------------------- */
 
 /* Returns the pieces of samples that are in the cache, or finds them and puts them in. */
-SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
-                                             const struct kiln_ray_objects *objects,
+SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame, uint32_t shapes,
                                              const struct ray_place *center,
                                              const struct cached_rays *first)
 {
     struct sample_pieces pieces;
-    if (first->filled) {
+    if (is_filled(first)) {
         for (int s = 0; s < SAMPLES; s++) {
             const struct cached_rays planes = cached_sample(first, s);
             pieces.of[s] = vi_of(read_cached(&planes, KILN_CACHE_PIECE));
@@ -286,7 +283,7 @@ SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
         return pieces;
     }
     struct placed_hit samples[SAMPLES];
-    pieces = trace_samples(frame, objects, center, samples);
+    pieces = trace_samples(frame, shapes, center, samples);
     for (int s = 0; s < SAMPLES; s++) {
         const struct cached_rays planes = cached_sample(first, s);
         fill_cached(&planes, KILN_CACHE_PIECE, vf_of(pieces.of[s]));
@@ -296,24 +293,23 @@ SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
 
 /* Antialiases LANES pixels whose samples are in the cache, or get into it; then each gets light, so
  * that its planes are filled. first: planes of the first sample. */
-SIMD_ONCE void antialias_cached(const struct kiln_backdrop_picture *p,
-                                const struct kiln_ray_objects *objects, vi column, vi row,
-                                vi active, const struct cached_rays *first)
+SIMD_ONCE void antialias_cached(const struct kiln_backdrop_picture *p, uint32_t shapes, vi column,
+                                vi row, vi active, const struct cached_rays *first)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi pixel = row * (int32_t)p->width + column;
     const struct ray_place center = rays_through_pixels(frame, column, row).place;
-    struct sample_pieces pieces = find_cached_pieces(frame, objects, &center, first);
+    struct sample_pieces pieces = find_cached_pieces(frame, shapes, &center, first);
     part_pieces(are_lit_evenly(p, column, row), &pieces);
     struct ray_color colors[1 + SAMPLES] = {load_centers(p, pixel)};
     for (int s = 0; s < SAMPLES; s++) {
-        if (first->filled && !any(needs_light(&pieces, s) & active))
+        if (is_filled(first) && !any(needs_light(&pieces, s) & active))
             continue;
         const struct ray_place place = sample_place(frame, &center, s);
         const struct ray ray = rays_at(frame, &place).ray;
         const struct cached_rays planes = cached_sample(first, s);
         const struct ray_help help = {NULL, &planes};
-        const struct ray_hit hit = find_hit(frame, objects, &ray, &place, &planes);
+        const struct ray_hit hit = find_hit(frame, shapes, &ray, &place, &planes);
         colors[1 + s] = shade_hits(frame, &ray, &hit, &help).color;
     }
     store_means(p, pixel, active, &pieces, colors);

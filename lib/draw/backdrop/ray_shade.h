@@ -22,9 +22,9 @@ struct grid_pixels {
     uint32_t column, row;                     /* of the first pixel, in the strip */
 };
 
-/* Describes what helps to shade rays; members are NULL where there is no such help. */
+/* Describes what helps to shade rays. */
 struct ray_help {
-    const struct grid_pixels *pixels;
+    const struct grid_pixels *pixels; /* NULL: they are in no grid */
     const struct cached_rays *cached;
 };
 
@@ -54,17 +54,16 @@ SIMD void color_floor(const struct kiln_ray_frame *frame, const struct ray *ray,
 }
 
 /* Finds what rays from the eye, or reflected ones, hit. place->layer is -1 for the latter. */
-SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame,
-                             const struct kiln_ray_objects *objects, const struct ray *ray,
-                             const struct ray_place *place, const struct cached_rays *cached)
+SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame, uint32_t shapes,
+                             const struct ray *ray, const struct ray_place *place,
+                             const struct cached_rays *cached)
 {
     if (is_filled(cached))
         return read_cached_hit(cached);
     const vf floor = place->layer < 0 ? vf_all(2.0f * RAY_FAR) : find_floor(frame, ray);
-    struct ray_hit hit = trace(frame, objects, ray, floor, place);
+    struct ray_hit hit = trace(frame, shapes, ray, floor, place);
     color_floor(frame, ray, &hit);
-    if (cached)
-        fill_cached_hit(cached, &hit);
+    fill_cached_hit(cached, &hit);
     return hit;
 }
 
@@ -78,24 +77,20 @@ SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct r
         return;
     struct kiln_ray_frame all = *frame;
     all.casters = frame->all_casters;
-    const struct kiln_ray_objects objects = all_objects(frame);
+    const uint32_t shapes = all_shapes(frame);
     const struct ray_reflection *m = &shaded->mirror;
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
-    struct ray_help help = {NULL, NULL};
-    struct cached_rays planes;
-    if (eye->cached) {
-        planes = cached_reflections(eye->cached);
-        help.cached = &planes;
-    }
+    const struct cached_rays planes = cached_reflections(eye->cached);
+    struct ray_help help = {NULL, &planes};
     struct grid_pixels pixels;
     if (eye->pixels && eye->pixels->mirrored) {
         pixels = (struct grid_pixels){eye->pixels->mirrored, NULL, eye->pixels->column,
                                       eye->pixels->row};
         help.pixels = &pixels;
     }
-    struct shaded_rays reflection = {
-        .first = find_hit(&all, &objects, &reflected, &nowhere, help.cached)};
+    struct shaded_rays reflection = {.first =
+                                         find_hit(&all, shapes, &reflected, &nowhere, help.cached)};
     KILN_SIMD_NAME(kiln_rays_light)(&all, &reflected, false, &help, &reflection);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);

@@ -1,10 +1,10 @@
-/* This header finds the nearest sphere, cylinder or axis-aligned box that vectors of rays hit. */
+/* This header finds the nearest shape that vectors of rays hit. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SHAPES_H
 #define KILN_DRAW_BACKDROP_RAY_SHAPES_H
 
 #include "base/real.h"
 #include "draw/backdrop/ray.h"
-#include "shared/shape_rays.h"
+#include "shared/shapes.h"
 
 #define RAY_FAR 1e9f
 
@@ -33,66 +33,28 @@ SIMD void keep_nearer(struct ray_hit *nearest, vi nearer, vf t, vf surface, stru
     nearest->albedo = vf3_select(nearer, vf3_all(albedo), nearest->albedo);
 }
 
-/* ---- boxes ----------------------------------------------------------------------------------- */
-
-SIMD void trace_boxes(const struct kiln_ray_frame *frame, uint32_t boxes, const struct ray *ray,
-                      struct ray_hit *nearest)
+/* shapes: a bit for each shape that the rays may hit. */
+SIMD void trace_shapes(const struct kiln_ray_frame *frame, uint32_t shapes, const struct ray *ray,
+                       struct ray_hit *nearest)
 {
-    const struct kiln_draw_backdrop *b = frame->backdrop;
-    struct vf3 inverse = ray_inverse3(ray->direction);
-    for (; boxes; boxes &= boxes - 1) {
-        int i = __builtin_ctz(boxes);
-        struct ray_slabs s =
-            ray_cross_slabs(vf3_towards(b->box_center[i], ray->origin), b->box_half[i], inverse);
-        struct ray_interval at = ray_slabs_interval(s);
-        vi nearer = ray_meets(at, nearest->t);
-        if (!any(nearer))
-            continue;
-        struct vf3 normal = ray_slabs_normal(s, inverse);
-        keep_nearer(nearest, nearer, at.near,
-                    ray_face_number(normal) + (float)KILN_SURFACE_BOX(KILN_SURFACE_BOXES, i),
-                    normal, b->box_color[i]);
+    for (; shapes; shapes &= shapes - 1) {
+        const int i = __builtin_ctz(shapes);
+        const struct kiln_draw_shape *shape = &frame->shapes->shapes[i];
+        switch (shape->kind.x) {
+#define TRACE(KIND, name)                                                                          \
+    case SHAPE_##KIND: {                                                                           \
+        const struct ray_interval at = name##_cross(*shape, ray->origin, ray->direction);          \
+        const vi nearer = ray_meets(at, nearest->t);                                               \
+        if (!any(nearer))                                                                          \
+            break;                                                                                 \
+        const struct shape_face face = name##_face(*shape, ray->origin, ray->direction, at.near);  \
+        keep_nearer(nearest, nearer, at.near, face.number + (float)KILN_SURFACE_SHAPE(i),          \
+                    face.normal, shape->color);                                                    \
+        break;                                                                                     \
     }
-}
-
-/* ---- spheres and cylinders ------------------------------------------------------------------- */
-
-SIMD void trace_spheres(const struct kiln_ray_frame *frame, uint32_t spheres, const struct ray *ray,
-                        struct ray_hit *nearest)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    for (; spheres; spheres &= spheres - 1) {
-        int i = __builtin_ctz(spheres);
-        float4 sphere = shapes->spheres[i];
-        struct ray_interval at = ray_cross_ball(sphere, ray->origin, ray->direction);
-        vi nearer = ray_meets(at, nearest->t);
-        if (!any(nearer))
-            continue;
-        struct vf3 out = vf3_sub(ray_at(ray, at.near), vf3_all(sphere));
-        keep_nearer(nearest, nearer, at.near, vf_all((float)(KILN_SURFACE_SPHERES + i)),
-                    vf3_normalize(out), shapes->sphere_color[i]);
-    }
-}
-
-SIMD void trace_cylinders(const struct kiln_ray_frame *frame, uint32_t cylinders,
-                          const struct ray *ray, struct ray_hit *nearest)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    for (; cylinders; cylinders &= cylinders - 1) {
-        int i = __builtin_ctz(cylinders);
-        float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
-        struct ray_cylinder c = ray_cross_cylinder(cylinder, axis, ray->origin, ray->direction);
-        struct ray_interval at = c.interval;
-        vi nearer = ray_meets(at, nearest->t);
-        if (!any(nearer))
-            continue;
-        struct vf3 from = vf3_sub(ray_at(ray, at.near), vf3_all(cylinder));
-        vf height = vf3_dot_all(from, axis);
-        struct vf3 side = vf3_normalize(vf3_add_scaled(from, vf3_all(axis), -height));
-        struct vf3 end = vf3_scale(vf3_all(axis), vf_sign_one(height));
-        vf part = vf_where(c.on_end, vf_select(height > 0.0f, vf_all(1.0f), vf_all(2.0f)));
-        keep_nearer(nearest, nearer, at.near, part + (float)(KILN_SURFACE_CYLINDERS + 3 * i),
-                    vf3_select(c.on_end, end, side), shapes->cylinder_color[i]);
+            KILN_SHAPES(TRACE)
+#undef TRACE
+        }
     }
 }
 

@@ -5,198 +5,16 @@
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "base/transpose.h"
-#include "draw/backdrop/ray_oriented.h"
-#include "draw/light/ray_lamp.h"
+#include "draw/backdrop/ray_shapes.h"
 #include "draw/light/ray_shadow.h"
+#include "draw/light/shapes_hide.h"
 #include "shared/shadow_map.h"
-#include "shared/sun_cover.h"
 
 /* Describes points whose sunlight is computed, and the lanes that need it. */
 struct sun_receiver {
     struct vf3 origin, normal;
     vi active;
 };
-
-/* Returns the lanes where a shape may hide a part of the sun. towards: the way to the centre of its
- * bounding sphere; size: the sphere's radius, m. */
-SIMD vi sun_may_be_hidden(const struct kiln_ray_frame *frame, const struct sun_receiver *receiver,
-                          struct vf3 towards, float size)
-{
-    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
-    const float spread = frame->shapes->sun_right.w;
-    const vf t = vf3_dot(towards, way);
-    const struct vf3 across = vf3_add_scaled(towards, way, -t);
-    const vf wide = spread * vf_max(t + size, vf_all(0.0f)) + (size + 1e-3f);
-    return receiver->active & (t > -size) & (vf3_dot(across, across) < wide * wide);
-}
-
-/* Returns the lanes where a cylinder or a capsule may hide a part of the sun. size: the radius of
- * its bounding sphere, m. */
-SIMD vi axis_may_hide_sun(const struct kiln_ray_frame *frame, const struct sun_receiver *receiver,
-                          float4 shape, float4 axis, float size)
-{
-    const struct vf3 towards = vf3_towards(shape, receiver->origin);
-    const vi near = sun_may_be_hidden(frame, receiver, towards, size);
-    if (!any(near))
-        return near;
-    return near & cone_meets_axis(vf_all(0.0f), vf_all(frame->shapes->sun_right.w), towards,
-                                  shape.w, axis, vf3_all(frame->backdrop->sun_direction));
-}
-
-/* Return what is left of the visible part of the sun behind an object, in the lanes where it may
- * hide some: by the part that it covers, or by where a ray to the middle of the sun crosses it. */
-SIMD vf hide_sun(vf visible, vi near, vf cover)
-{
-    return visible * (1.0f - vf_where(near, cover));
-}
-
-SIMD vf block_sun(vf visible, vi near, struct ray_interval crossed)
-{
-    return vf_where(~(near & ray_is_blocked(crossed)), visible);
-}
-
-/* ---- boxes ----------------------------------------------------------------------------------- */
-
-/* m: more than rounding displaces a ray, less than the 1e-3 m that rays start off surfaces. */
-#define BOX_EDGE 1e-4f
-
-/* Returns what a box leaves of the visible part of the sun. s: where the rays cross its slabs. */
-SIMD vf sun_past_box(const struct kiln_ray_frame *frame, vf visible, vi near,
-                     const struct ray_slabs *s, const struct sun_edges *edges)
-{
-    if (!frame->soft_sun)
-        return block_sun(visible, near, ray_slabs_interval(*s));
-    const struct box_outline outline = box_outline_all(*edges);
-    near &= box_span_of(*s, outline, BOX_EDGE).exit > 0.0f;
-    if (!any(near))
-        return visible;
-    return hide_sun(
-        visible, near,
-        ray_box_cover(s, &outline, near, vf_all(frame->shapes->sun_right.w), vf_all(0.0f)));
-}
-
-SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame, uint32_t boxes,
-                             const struct sun_receiver *receiver)
-{
-    const struct kiln_draw_backdrop *b = frame->backdrop;
-    const struct sun_edges *edges = &frame->shapes->edges;
-    const struct vf3 inverses = vf3_all(edges->inverse), way = vf3_all(b->sun_direction);
-    const vf spread = vf_all(frame->shapes->sun_right.w);
-    vf visible = vf_all(1.0f);
-    for (; boxes; boxes &= boxes - 1) {
-        const int i = __builtin_ctz(boxes);
-        const float4 half = b->box_half[i];
-        const struct vf3 towards = vf3_towards(b->box_center[i], receiver->origin);
-        vi near = sun_may_be_hidden(frame, receiver, towards, half.w);
-        if (!any(near))
-            continue;
-        const struct ray_slabs s = ray_cross_slabs(towards, half, inverses);
-        const vf grow = cone_at_box(vf_all(0.0f), spread, towards, half, way);
-        const struct box_crossing crossing = cross_grown_box(&s, inverses, grow);
-        near &= (crossing.enters <= crossing.leaves) & (crossing.leaves >= 0.0f);
-        if (any(near))
-            visible = sun_past_box(frame, visible, near, &s, edges);
-    }
-    return visible;
-}
-
-/* ---- spheres and cylinders ------------------------------------------------------------------- */
-
-SIMD vf spheres_sun_visibility(const struct kiln_ray_frame *frame, uint32_t spheres,
-                               const struct sun_receiver *receiver)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
-    const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
-    vf visible = vf_all(1.0f);
-    for (; spheres; spheres &= spheres - 1) {
-        const int i = __builtin_ctz(spheres);
-        const float4 sphere = shapes->spheres[i];
-        const struct vf3 towards = vf3_towards(sphere, receiver->origin);
-        const vi near = sun_may_be_hidden(frame, receiver, towards, sphere.w);
-        if (!any(near))
-            continue;
-        visible =
-            frame->soft_sun
-                ? hide_sun(visible, near, ball_cover(towards, sphere.w, way, spread, point).cover)
-                : block_sun(visible, near, ray_cross_ball(sphere, receiver->origin, way));
-    }
-    return visible;
-}
-
-SIMD vf cylinders_sun_visibility(const struct kiln_ray_frame *frame, uint32_t cylinders,
-                                 const struct sun_receiver *receiver)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
-    const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
-    vf visible = vf_all(1.0f);
-    for (; cylinders; cylinders &= cylinders - 1) {
-        const int i = __builtin_ctz(cylinders);
-        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
-        const vi near =
-            axis_may_hide_sun(frame, receiver, cylinder, axis, cylinder_size(cylinder, axis));
-        if (!any(near))
-            continue;
-        if (!frame->soft_sun) {
-            visible = block_sun(visible, near,
-                                ray_cross_cylinder(cylinder, axis, receiver->origin, way).interval);
-            continue;
-        }
-        const struct cover_at at =
-            cylinder_cover(vf3_towards(cylinder, receiver->origin), cylinder.w, axis, way,
-                           cover_band_all(shapes->bands[i]), spread, point);
-        visible = hide_sun(visible, near, at.cover);
-    }
-    return visible;
-}
-
-/* ---- capsules and oriented boxes ------------------------------------------------------------- */
-
-SIMD vf capsules_sun_visibility(const struct kiln_ray_frame *frame, uint32_t capsules,
-                                const struct sun_receiver *receiver)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
-    const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
-    vf visible = vf_all(1.0f);
-    for (; capsules; capsules &= capsules - 1) {
-        const int i = __builtin_ctz(capsules);
-        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
-        const vi near = axis_may_hide_sun(frame, receiver, capsule, axis, capsule.w + axis.w);
-        if (!any(near))
-            continue;
-        if (!frame->soft_sun) {
-            visible =
-                block_sun(visible, near, ray_cross_capsule(capsule, axis, receiver->origin, way));
-            continue;
-        }
-        const struct vf3 nearest =
-            capsule_nearest(vf3_towards(capsule, receiver->origin), axis, way);
-        visible = hide_sun(visible, near, ball_cover(nearest, capsule.w, way, spread, point).cover);
-    }
-    return visible;
-}
-
-SIMD vf oriented_boxes_sun_visibility(const struct kiln_ray_frame *frame, uint32_t boxes,
-                                      const struct sun_receiver *receiver)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    vf visible = vf_all(1.0f);
-    for (; boxes; boxes &= boxes - 1) {
-        const int i = __builtin_ctz(boxes);
-        const struct sun_edges *edges = &shapes->oriented_edges[i];
-        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
-        const vi near = sun_may_be_hidden(
-            frame, receiver, vf3_towards(box->center, receiver->origin), box->half_size.w);
-        if (!any(near))
-            continue;
-        const struct ray_slabs s =
-            cross_oriented_box(box, receiver->origin, vf3_all(edges->inverse));
-        visible = sun_past_box(frame, visible, near, &s, edges);
-    }
-    return visible;
-}
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
@@ -405,7 +223,8 @@ SIMD vf particles_sun_visibility(const struct kiln_ray_frame *frame,
 
 SIMD struct sun_receiver sun_receiver_of(struct vf3 point, struct vf3 normal, vi active)
 {
-    return (struct sun_receiver){vf3_add_scaled(point, normal, vf_all(1e-3f)), normal, active};
+    return (struct sun_receiver){vf3_add_scaled(point, normal, vf_all(LIGHT_START)), normal,
+                                 active};
 }
 
 /* Returns the part of the sun that is visible past objects; 0 for lanes that are not active. */
@@ -413,14 +232,15 @@ SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_re
 {
     if (!any(receiver->active))
         return vf_all(0.0f);
-    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
-    uint32_t objects = frame->casters->sun_objects, meshes = frame->casters->sun_meshes;
-    vf visible =
-        boxes_sun_visibility(frame, take_bits(&objects, frame->backdrop->counts.x), receiver);
-    visible *= spheres_sun_visibility(frame, take_bits(&objects, round.x), receiver);
-    visible *= cylinders_sun_visibility(frame, take_bits(&objects, round.y), receiver);
-    visible *= capsules_sun_visibility(frame, take_bits(&objects, oriented.x), receiver);
-    visible *= oriented_boxes_sun_visibility(frame, take_bits(&objects, oriented.y), receiver);
+    struct light_receiver r = {.origin = receiver->origin,
+                               .seen = frame->from_sun,
+                               .active = receiver->active,
+                               .visible = vf_all(1.0f),
+                               .way = sun_way_of(frame->backdrop->sun_direction,
+                                                 frame->shapes->sun_right.w, vf_all(0.0f))};
+    hide_by_shapes(frame->shapes, frame->casters->sun_objects, &r);
+    vf visible = r.visible;
+    uint32_t meshes = frame->casters->sun_meshes;
     for (; meshes; meshes &= meshes - 1)
         visible *= 1.0f - mesh_cover(frame, __builtin_ctz(meshes), receiver);
     return vf_where(receiver->active, visible);

@@ -1,23 +1,16 @@
 /* This file finds what vectors of rays hit: objects, meshes, and the floor. */
 #include "draw/backdrop/ray_mesh.h"
-#include "draw/backdrop/ray_oriented.h"
 #include "draw/backdrop/ray_trace.h"
 
-void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame,
-                                     const struct kiln_ray_objects *objects, const struct ray *ray,
-                                     const vf *floor, const struct ray_place *place,
-                                     struct ray_hit *found)
+void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame, uint32_t shapes,
+                                     const struct ray *ray, const vf *floor,
+                                     const struct ray_place *place, struct ray_hit *found)
 {
     struct ray_hit nearest = {.t = vf_all(RAY_FAR),
                               .surface = vf_all(-1.0f),
                               .normal = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)},
                               .albedo = {{0}, {0}, {0}}};
-    trace_boxes(frame, objects->boxes, ray, &nearest);
-    trace_spheres(frame, objects->spheres, ray, &nearest);
-    trace_cylinders(frame, objects->cylinders, ray, &nearest);
-    trace_capsules(frame, objects->capsules, ray, &nearest);
-    trace_oriented_boxes(frame, objects->oriented_boxes, ray, &nearest);
-    trace_planes(frame, objects->planes, ray, &nearest);
+    trace_shapes(frame, shapes, ray, &nearest);
     if (frame->meshes && place->layer >= 0)
         trace_meshes(frame, place, &nearest);
     vi below = *floor < nearest.t;

@@ -1,4 +1,4 @@
-/* This file visits all lit particles in blocks, for their shade from lamps (lamp_shade_simd.c).
+/* This file visits all lit particles in blocks, for their shade from lamps (shade_simd.c).
  * Every drawing technique reads the same result. */
 #include "draw/light/lamp_shade.h"
 
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "draw/light/lamp_shade_blocks.h"
+#include "draw/light/shade_blocks.h"
 #include "draw/light/sun_shade.h"
 
 enum { GRAIN = 8 * KILN_LANES /* slots that a worker takes at a time */, LIGHTS_OF_WORD = 4 };
@@ -15,7 +15,6 @@ struct kiln_lamp_shade {
     const struct kiln_scene *scene;
     uint32_t *words;
     size_t room; /* of words */
-    float4 box_center[KILN_MAX_OBJECTS], box_half[KILN_MAX_OBJECTS];
 };
 
 bool kiln_lamp_shade_exists(const struct kiln_scene *scene)
@@ -105,10 +104,6 @@ const uint32_t *kiln_lamp_shade_run(struct kiln_lamp_shade *shade, const struct 
     if (!reserve(shade, plane * (planes ? planes : 1), error))
         return NULL;
     const struct kiln_lamp_objects objects = {
-        .box_count = kiln_boxes_fill(shade->scene, moment->view.clock.x, shade->box_center,
-                                     shade->box_half, NULL),
-        .box_center = shade->box_center,
-        .box_half = shade->box_half,
         .shapes = &moment->shapes,
         .maps = maps,
         .solid_maps = solid_maps,

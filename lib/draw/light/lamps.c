@@ -7,127 +7,46 @@
 #include <math.h>
 
 #include "shared/exact.h"
-#include "shared/lamp_cover.h"
+#include "shared/shapes.h"
 
 static float3 xyz(float4 v)
 {
     return (float3){v.x, v.y, v.z};
 }
 
-static float3 way_from(float4 center, float3 point)
+static bool contains(const struct kiln_draw_shape *shape, float3 from)
 {
-    return float3_sub(point, xyz(center));
+#define CONTAINS(KIND, name)                                                                       \
+    if (shape->kind.x == SHAPE_##KIND)                                                             \
+        return name##_contains(*shape, from);
+    KILN_SHAPES(CONTAINS)
+#undef CONTAINS
+    return false;
 }
-
-static bool box_contains(float4 half, float3 from)
-{
-    return fabsf(from.x) < half.x && fabsf(from.y) < half.y && fabsf(from.z) < half.z;
-}
-
-static bool cylinder_contains(float4 cylinder, float4 axis, float3 from)
-{
-    const float height = float3_dot(from, xyz(axis));
-    const float3 aside = float3_add_scaled(from, xyz(axis), -height);
-    return fabsf(height) < axis.w && float3_dot(aside, aside) < cylinder.w * cylinder.w;
-}
-
-static bool capsule_contains(float4 capsule, float4 axis, float3 from)
-{
-    const float height = exact_clamp(float3_dot(from, xyz(axis)), -axis.w, axis.w);
-    const float3 aside = float3_add_scaled(from, xyz(axis), -height);
-    return float3_dot(aside, aside) < capsule.w * capsule.w;
-}
-
-static bool oriented_box_contains(const struct kiln_draw_oriented_box *box, float3 from)
-{
-    const float3 there = {float3_dot(from, xyz(box->rows[0])), float3_dot(from, xyz(box->rows[1])),
-                          float3_dot(from, xyz(box->rows[2]))};
-    return box_contains(box->half_size, there);
-}
-
-/* Holds the boxes along the axes. */
-struct boxes {
-    uint32_t count;
-    float4 center[KILN_MAX_OBJECTS], half[KILN_MAX_OBJECTS];
-};
 
 /* How far an object that counts as behind a rectangle may reach past its plane, m. */
 static const float RECTANGLE_SLACK = 1e-3f;
 
-/* Returns whether an object is wholly behind a rectangle. reach: how far the object extends from
- * its centre in the direction of the rectangle's front, m. */
-static bool is_behind(const struct kiln_draw_light *light, float4 center, float reach)
+/* Returns whether a shape is wholly behind a rectangle. */
+static bool is_behind(const struct kiln_draw_light *light, const struct kiln_draw_shape *shape)
 {
     if (light->facing.w != KILN_LAMP_RECTANGLE)
         return false;
-    const float3 from = way_from(light->position_radius2, xyz(center));
+    const float3 from = float3_sub(xyz(shape->center), xyz(light->position_radius2));
+    const float reach = kiln_shape_reach(shape, xyz(light->facing));
     return float3_dot(from, xyz(light->facing)) + reach < RECTANGLE_SLACK;
 }
 
-static float reach_of_box(float4 half, float3 way)
-{
-    return fabsf(way.x) * half.x + fabsf(way.y) * half.y + fabsf(way.z) * half.z;
-}
-
-static float reach_of_cylinder(float radius, float4 axis, float3 way)
-{
-    const float climb = float3_dot(way, xyz(axis));
-    return fabsf(climb) * axis.w + radius * sqrtf(exact_max(1.0f - climb * climb, 0.0f));
-}
-
-static float reach_of_oriented_box(const struct kiln_draw_oriented_box *box, float3 way)
-{
-    const float3 there = {float3_dot(way, xyz(box->rows[0])), float3_dot(way, xyz(box->rows[1])),
-                          float3_dot(way, xyz(box->rows[2]))};
-    return reach_of_box(box->half_size, there);
-}
-
-/* Returns the bits of the boxes, spheres and cylinders that may hide a light, in the order of the
- * bits, and sets *bit to the next bit. */
-static uint32_t find_plain_casters(const struct kiln_draw_shapes *shapes, const struct boxes *boxes,
-                                   const struct kiln_draw_light *light, uint32_t *bit)
-{
-    const float3 at = xyz(light->position_radius2), way = xyz(light->facing);
-    uint32_t casters = 0;
-    for (uint32_t i = 0; i < boxes->count; i++, ++*bit) {
-        const bool inside = box_contains(boxes->half[i], way_from(boxes->center[i], at)) ||
-                            is_behind(light, boxes->center[i], reach_of_box(boxes->half[i], way));
-        casters |= inside ? 0 : 1u << *bit;
-    }
-    for (uint32_t i = 0; i < shapes->counts.x; i++, ++*bit) {
-        const float4 sphere = shapes->spheres[i];
-        const float3 from = way_from(sphere, at);
-        const bool inside =
-            float3_dot(from, from) < sphere.w * sphere.w || is_behind(light, sphere, sphere.w);
-        casters |= inside ? 0 : 1u << *bit;
-    }
-    for (uint32_t i = 0; i < shapes->counts.y; i++, ++*bit) {
-        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
-        const bool inside = cylinder_contains(cylinder, axis, way_from(cylinder, at)) ||
-                            is_behind(light, cylinder, reach_of_cylinder(cylinder.w, axis, way));
-        casters |= inside ? 0 : 1u << *bit;
-    }
-    return casters;
-}
-
-/* Returns the bits of the objects that may hide a light. */
-static uint32_t find_casters(const struct kiln_draw_shapes *shapes, const struct boxes *boxes,
+/* Returns the bits of the shapes that may hide a light. */
+static uint32_t find_casters(const struct kiln_draw_shapes *shapes,
                              const struct kiln_draw_light *light)
 {
-    const float3 at = xyz(light->position_radius2), way = xyz(light->facing);
-    uint32_t bit = 0, casters = find_plain_casters(shapes, boxes, light, &bit);
-    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++, bit++) {
-        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
-        const float reach = capsule.w + axis.w * fabsf(float3_dot(way, xyz(axis)));
-        const bool inside = capsule_contains(capsule, axis, way_from(capsule, at)) ||
-                            is_behind(light, capsule, reach);
-        casters |= inside ? 0 : 1u << bit;
-    }
-    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++, bit++) {
-        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
-        const bool inside = oriented_box_contains(box, way_from(box->center, at)) ||
-                            is_behind(light, box->center, reach_of_oriented_box(box, way));
-        casters |= inside ? 0 : 1u << bit;
+    uint32_t casters = kiln_shapes_that_hide(shapes);
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        const struct kiln_draw_shape *shape = &shapes->shapes[i];
+        const float3 from = float3_sub(xyz(light->position_radius2), xyz(shape->center));
+        if (contains(shape, from) || is_behind(light, shape))
+            casters &= ~(1u << i);
     }
     return casters;
 }
@@ -137,7 +56,7 @@ static uint32_t find_casters(const struct kiln_draw_shapes *shapes, const struct
 static float cover_of_plane(const struct kiln_draw_light *light, float3 normal, float height)
 {
     if (light->facing.w != KILN_LAMP_RECTANGLE)
-        return lamp_plane_cover(height, light->color.w);
+        return plane_hides(height, light->color.w);
     const float reach = fabsf(float3_dot(xyz(light->right), normal)) +
                         fabsf(float3_dot(xyz(light->up), normal)) + RECTANGLE_SLACK;
     return exact_clamp(0.5f - 0.5f * (height + RECTANGLE_SLACK) / reach, 0.0f, 1.0f);
@@ -156,10 +75,12 @@ static float part_above_planes(const struct kiln_moment *moment,
             kiln_scene_value(moment->scene, &backdrop->floor_height, moment->view.clock.x);
         part *= 1.0f - cover_of_plane(light, (float3){0.0f, 1.0f, 0.0f}, at.y - floor);
     }
-    for (uint32_t i = 0; i < shapes->oriented_counts.z; i++) {
-        const float4 plane = shapes->planes[i];
-        const float height = float3_dot(at, xyz(plane)) - plane.w;
-        part *= 1.0f - cover_of_plane(light, xyz(plane), height);
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        const struct kiln_draw_shape *plane = &shapes->shapes[i];
+        const float3 normal = xyz(plane->rows[1]);
+        if (plane->kind.x == SHAPE_PLANE)
+            part *= 1.0f - cover_of_plane(light, normal,
+                                          float3_dot(float3_sub(at, xyz(plane->center)), normal));
     }
     return part;
 }
@@ -239,15 +160,12 @@ uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_ligh
 void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_light *lights,
                              uint32_t count)
 {
-    struct boxes boxes;
-    boxes.count =
-        kiln_boxes_fill(moment->scene, moment->view.clock.x, boxes.center, boxes.half, NULL);
     for (uint32_t i = 0; i < count; i++) {
         struct kiln_draw_light *light = &lights[i];
         if (!light->casters.x)
             continue;
         const float part = part_above_planes(moment, light);
-        light->casters.x = find_casters(&moment->shapes, &boxes, light);
+        light->casters.x = find_casters(&moment->shapes, light);
         light->color.x *= part;
         light->color.y *= part;
         light->color.z *= part;

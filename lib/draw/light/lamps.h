@@ -17,8 +17,6 @@ void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_
 
 /* Holds the objects of the backdrop that may hide lights, and maps of what else does. */
 struct kiln_lamp_objects {
-    uint32_t box_count; /* boxes along the axes */
-    const float4 *box_center, *box_half;
     const struct kiln_draw_shapes *shapes;
     const uint32_t *maps;       /* of kiln_lamp_maps_run */
     const uint32_t *solid_maps; /* of kiln_lamp_solids_run */

@@ -1,10 +1,8 @@
-/* This header declares sums of light and shade over blocks of living particles, by vectorised loops
+/* This header declares sums of light over blocks of living particles, by vectorised loops
  * (light_simd.c). */
 #ifndef KILN_DRAW_LIGHT_LIGHT_BLOCKS_H
 #define KILN_DRAW_LIGHT_LIGHT_BLOCKS_H
 
-#include "draw/light/sun_box.h"
-#include "draw/light/sun_cylinder.h"
 #include "draw/moment/appearance_blocks.h"
 
 /* Holds kiln_appearance_glow at the samples of a look. */
@@ -21,13 +19,6 @@ struct kiln_light_sums {
     double radius;      /* of a particle, m, times energy */
 };
 
-/* Names the boxes along the axes and the cylinders that may hide the sun. */
-struct kiln_sun_shapes {
-    const struct kiln_sun_box *boxes;
-    const struct kiln_sun_cylinder *cylinders;
-    uint32_t box_count, cylinder_count;
-};
-
 struct kiln_light_loops {
     /* Adds the light of each particle to the two lights that its progress lies between. fill: the
      * part of a billboard's square that its cell fills with light. */
@@ -37,9 +28,6 @@ struct kiln_light_loops {
      * of the ball hides `cover` times the particle's opacity; `shadow` scales its optical depth. */
     void (*find_extinction)(const struct kiln_appearance_block *block, float cover, float shadow,
                             float extinction[KILN_LANES]);
-    /* Multiplies `visible` by the part of the sun that shapes let through to each particle. */
-    void (*shade)(const struct kiln_appearance_block *block, const struct kiln_sun_shapes *shapes,
-                  const struct kiln_sun_frame *sun, float visible[KILN_LANES]);
 };
 KILN_SIMD_DECLARE(const struct kiln_light_loops, kiln_light_loops);
 

@@ -1,6 +1,6 @@
-/* This file computes the light of fire, the extinction of smoke and the shade of boxes and
- * cylinders for blocks of living particles. Every loop runs over lanes and has no branches, so that
- * compilers vectorise it. Sums are taken in the same order at every level. */
+/* This file computes the light of fire and the extinction of smoke for blocks of living particles.
+ * Every loop runs over lanes and has no branches, so that compilers vectorise it. Sums are taken in
+ * the same order at every level. */
 #include <math.h>
 
 #include "draw/light/light_blocks.h"
@@ -129,49 +129,7 @@ __attribute__((flatten)) static void find_extinction(const struct kiln_appearanc
     }
 }
 
-/* ---- shade ----------------------------------------------------------------------------------- */
-
-/* Returns whether any particle may be in a shape's shade. Most blocks are far from most shapes'
- * shade, and skip those shapes. size: radius of the shape's bounding sphere, m. */
-static inline bool any_near(const struct kiln_appearance_block *b, float3 center, float size,
-                            const struct kiln_sun_frame *sun)
-{
-    uint32_t near = 0;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
-        near |= b->alive[i] & !kiln_sun_cover_is_zero(center, size, ball, sun);
-    }
-    return near != 0;
-}
-
-__attribute__((flatten)) static void shade(const struct kiln_appearance_block *b,
-                                           const struct kiln_sun_shapes *shapes,
-                                           const struct kiln_sun_frame *sun,
-                                           float visible[KILN_LANES])
-{
-    const struct kiln_sun_frame frame = *sun;
-    for (uint32_t k = 0; k < shapes->box_count; k++) {
-        const struct kiln_sun_box box = shapes->boxes[k];
-        if (!any_near(b, box.center, box.size, &frame))
-            continue;
-        for (uint32_t i = 0; i < KILN_LANES; i++) {
-            const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
-            visible[i] *= 1.0f - kiln_sun_box_cover(&box, ball, &frame);
-        }
-    }
-    for (uint32_t k = 0; k < shapes->cylinder_count; k++) {
-        const struct kiln_sun_cylinder cylinder = shapes->cylinders[k];
-        if (!any_near(b, cylinder.center, cylinder.size, &frame))
-            continue;
-        for (uint32_t i = 0; i < KILN_LANES; i++) {
-            const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
-            visible[i] *= 1.0f - kiln_sun_cylinder_cover(&cylinder, ball, &frame);
-        }
-    }
-}
-
 const struct kiln_light_loops KILN_SIMD_NAME(kiln_light_loops) = {
     .gather_fire = gather_fire,
     .find_extinction = find_extinction,
-    .shade = shade,
 };

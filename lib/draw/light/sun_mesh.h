@@ -3,7 +3,7 @@
 #ifndef KILN_DRAW_LIGHT_SUN_MESH_H
 #define KILN_DRAW_LIGHT_SUN_MESH_H
 
-#include "draw/light/sun_cover.h"
+#include "draw/moment/shapes.h"
 
 enum { KILN_SUN_MESH_EDGE = 128, KILN_SUN_MESH_LEVELS = 8, KILN_SUN_MESH_CELLS = 21845 };
 
@@ -14,6 +14,12 @@ struct kiln_sun_mesh {
     bool drawn;
     float cover[KILN_SUN_MESH_CELLS];  /* part of each cell that the mesh covers */
     float height[KILN_SUN_MESH_CELLS]; /* mean height towards the sun times the cover, m */
+};
+
+/* A particle, as far as the sun is concerned. */
+struct kiln_ball {
+    float3 center;
+    float radius; /* m */
 };
 
 /* Draws the map, unless it shows the mesh in this position and under this sun already. */

@@ -9,11 +9,9 @@ static_assert(sizeof(struct kiln_view) == 160, "std140");
 static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_light) == 144, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_backdrop, box_half) == 112 + 16 * KILN_MAX_OBJECTS,
-              "std140");
-static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112 + 48 * KILN_MAX_OBJECTS, "std140");
+static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112, "std140");
 static_assert(sizeof(struct kiln_draw_backdrop) ==
-                  208 + 48 * KILN_MAX_OBJECTS + 144 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
+                  208 + 144 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
               "std140, and no padding, which the backdrop would compare");
 
 void kiln_draw_blocks_init(struct kiln_draw_blocks *blocks, struct kiln_device *device)

@@ -68,6 +68,7 @@ void kiln_moment_set_time(struct kiln_moment *moment, struct kiln_instant instan
     }
     kiln_meshes_pose(&moment->meshes, time_s);
     kiln_shapes_fill(scene, moment->meshes.loaded, &moment->sun, time_s, &moment->shapes);
+    kiln_shapes_see(&moment->shapes, moment->sun.towards, moment->from_sun);
 }
 
 bool kiln_moment_set_particles(struct kiln_moment *moment, struct kiln_pool *pool, bool on_host,

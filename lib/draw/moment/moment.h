@@ -9,6 +9,7 @@
 #include "draw/moment/looks.h"
 #include "draw/moment/meshes.h"
 #include "draw/moment/shapes.h"
+#include "draw/moment/shapes_seen.h"
 #include "draw/moment/view.h"
 #include "particles/pool.h"
 
@@ -29,6 +30,7 @@ struct kiln_moment {
     uint64_t look_changes;          /* a number that grows when the table changes */
     struct kiln_meshes meshes;      /* the backdrop's meshes: posed, with bounds */
     struct kiln_draw_shapes shapes; /* the backdrop's objects, by kiln_shapes_fill */
+    struct kiln_shape_seen from_sun[KILN_MAX_OBJECTS];
 
     /* kiln_moment_set_particles sets these members, and the paint of meshes. */
     struct kiln_pool *pool;              /* the particles; NULL: there are none */

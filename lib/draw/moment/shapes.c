@@ -6,22 +6,45 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/matrix.h"
 #include "draw/moment/instances.h"
-#include "draw/moment/sun_outline.h"
+#include "draw/moment/shapes_seen.h"
 #include "shared/exact.h"
+#include "shared/shapes.h"
 
-enum { FIRST_SPHERE = 144 + 2 * 16 * KILN_WAVES };
+enum { FIRST_MESH = 128 + 2 * 16 * KILN_WAVES };
 
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
-static_assert(sizeof(struct kiln_draw_oriented_box) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, spheres) == FIRST_SPHERE, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, meshes) == FIRST_SPHERE + 80 * KILN_MAX_OBJECTS,
-              "std140");
-static_assert(sizeof(struct kiln_draw_shapes) == FIRST_SPHERE + 96 * (KILN_MAX_MESHES + 1) +
-                                                     (80 + 80 + 96 + 96 + 48) * KILN_MAX_OBJECTS,
+static_assert(sizeof(struct kiln_draw_shape) == 112, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, meshes) == FIRST_MESH, "std140");
+static_assert(sizeof(struct kiln_draw_shapes) == FIRST_MESH + 96 * KILN_MAX_MESHES +
+                                                     16 * KILN_SHAPE_FIRSTS +
+                                                     112 * KILN_MAX_OBJECTS,
               "std140, and no padding, which the backdrop would compare");
+static_assert(SHAPE_KINDS < 4 * KILN_SHAPE_FIRSTS, "`first` has one number more");
+
+/* Returns the kind of shape that an object is drawn as, or SHAPE_KINDS: it is drawn as a mesh, or
+ * not at all. */
+static uint32_t shape_of(const struct kiln_object *object)
+{
+    switch (object->kind) {
+    case KILN_OBJECT_BOX:
+        return SHAPE_BOX;
+    case KILN_OBJECT_SPHERE:
+    case KILN_OBJECT_CAPSULE:
+        return SHAPE_CAPSULE;
+    case KILN_OBJECT_CYLINDER:
+        return SHAPE_CYLINDER;
+    case KILN_OBJECT_PLANE:
+        return object->visible ? SHAPE_PLANE : SHAPE_KINDS;
+    case KILN_OBJECT_MESH:
+    case KILN_OBJECT_TERRAIN:
+        break;
+    }
+    return SHAPE_KINDS;
+}
 
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
 {
@@ -30,15 +53,12 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         .floor_image = backdrop->floor_image != NULL,
         .floor_gloss = kiln_scene_value_max(scene, &backdrop->floor_gloss) > 0.0f,
         .sky_image = backdrop->sky_image != NULL,
-        .soft_sun = kiln_scene_value_max(scene, &backdrop->sun_size) > 0.0f,
     };
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
-        enum kiln_object_kind kind = object->kind;
-        features.oriented |= kind == KILN_OBJECT_CAPSULE || kiln_object_is_oriented_box(object) ||
-                             (kind == KILN_OBJECT_PLANE && object->visible);
-        features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
-        features.meshes |= kiln_object_is_mesh(&backdrop->objects[i]);
+        if (shape_of(object) < SHAPE_KINDS)
+            features.kinds |= 1u << shape_of(object);
+        features.meshes |= kiln_object_is_mesh(object);
         features.paint |= kiln_object_takes_paint(object);
     }
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -52,17 +72,25 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES])
 {
-    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s%s", samples,
-             features->round ? "#define ROUND 1\n" : "",
-             features->oriented ? "#define ORIENTED 1\n" : "",
-             features->meshes ? "#define MESHES 1\n" : "",
-             features->paint ? "#define PAINT 1\n" : "",
-             features->solids ? "#define SOLIDS 1\n" : "",
-             features->instances ? "#define INSTANCES 1\n" : "",
-             features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
-             features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
-             features->sky_image ? "#define SKY_IMAGE 1\n" : "",
-             features->soft_sun ? "#define SOFT_SUN 1\n" : "");
+    static const char *const rows[SHAPE_KINDS] = {
+#define ROW_OF(kind, name) [SHAPE_##kind] = " ROW(" #kind ", " #name ")",
+        KILN_SHAPES(ROW_OF)
+#undef ROW_OF
+    };
+    int length = snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s", samples,
+                          features->meshes ? "#define MESHES 1\n" : "",
+                          features->paint ? "#define PAINT 1\n" : "",
+                          features->solids ? "#define SOLIDS 1\n" : "",
+                          features->instances ? "#define INSTANCES 1\n" : "",
+                          features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
+                          features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
+                          features->sky_image ? "#define SKY_IMAGE 1\n" : "");
+    length +=
+        snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "#define KILN_SHAPES(ROW)");
+    for (uint32_t kind = 0; kind < SHAPE_KINDS; kind++)
+        length += snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "%s",
+                           features->kinds >> kind & 1 ? rows[kind] : "");
+    snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "\n");
 }
 
 static float4 with_w(float3 v, float w)
@@ -186,82 +214,81 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
     }
 }
 
-/* Returns half of a box's size; w: the radius of its bounding sphere, m. */
-static float4 half_of_box(float3 size)
+/* Fills in the frame of a shape around an axis, of which any vectors across the axis will do. */
+static void fill_axis(float3 axis, struct kiln_draw_shape *out)
 {
-    const float3 half = {0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
-    return with_w(half, box_radius(half));
+    const float3 from =
+        fabsf(axis.x) > 0.7f ? (float3){-axis.z, 0.0f, axis.x} : (float3){0.0f, axis.z, -axis.y};
+    const float3 across = kiln_direction(from);
+    out->rows[0] = with_w(across, 0.0f);
+    out->rows[1] = with_w(axis, 0.0f);
+    out->rows[2] = with_w(float3_cross(across, axis), 0.0f);
 }
 
-static void fill_oriented_box(const struct kiln_scene *scene, const struct kiln_object *object,
-                              float time_s, struct kiln_draw_oriented_box *out)
+static float size_of(const struct kiln_draw_shape *shape)
 {
-    mat3 rotation; /* the columns of a rotation are the rows of its inverse */
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
-    for (int i = 0; i < 3; i++)
-        out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
-    float3 size = kiln_scene_value3(scene, &object->size, time_s);
-    out->center = with_w(kiln_scene_value3(scene, &object->center, time_s), 0.0f);
-    out->half_size = half_of_box(size);
-    out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
+    float size = 0.0f;
+#define SIZE(KIND, name)                                                                           \
+    if (shape->kind.x == SHAPE_##KIND)                                                             \
+        size = name##_size(*shape);
+    KILN_SHAPES(SIZE)
+#undef SIZE
+    return size;
 }
 
-/* Adds a capsule, a visible plane or a oriented box; ignores other objects. */
-static void fill_oriented(const struct kiln_scene *scene, const struct kiln_object *object,
-                          float time_s, struct kiln_draw_shapes *shapes)
+float kiln_shape_reach(const struct kiln_draw_shape *shape, float3 way)
 {
-    float3 center = kiln_scene_value3(scene, &object->center, time_s);
-    float4 color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
-    if (object->kind == KILN_OBJECT_CAPSULE) {
-        uint k = shapes->oriented_counts.x++;
-        float3 axis = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
-        shapes->capsules[k] = with_w(center, kiln_scene_value(scene, &object->radius, time_s));
-        shapes->capsule_axis[k] =
-            with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
-        shapes->capsule_color[k] = color;
-    } else if (kiln_object_is_oriented_box(object)) {
-        fill_oriented_box(scene, object, time_s,
-                          &shapes->oriented_boxes[shapes->oriented_counts.y++]);
-    } else if (object->kind == KILN_OBJECT_PLANE && object->visible) {
-        uint k = shapes->oriented_counts.z++;
-        float3 normal = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
-        shapes->planes[k] = with_w(normal, float3_dot(normal, center));
-        shapes->plane_color[k] = color;
+    float reach = 0.0f;
+#define REACH(KIND, name)                                                                          \
+    if (shape->kind.x == SHAPE_##KIND)                                                             \
+        reach = name##_reach(*shape, way);
+    KILN_SHAPES(REACH)
+#undef REACH
+    return reach;
+}
+
+static void fill_shape(const struct kiln_scene *scene, const struct kiln_object *object,
+                       float time_s, struct kiln_draw_shape *out)
+{
+    const bool turned = object->kind != KILN_OBJECT_BOX || kiln_object_is_oriented_box(object);
+    *out = (struct kiln_draw_shape){
+        .color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f),
+        .kind = {shape_of(object), turned, 0, 0},
+        .rows = {{1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f, 0.0f}},
+    };
+    if (object->kind == KILN_OBJECT_BOX) {
+        out->extent =
+            with_w(float3_scale(kiln_scene_value3(scene, &object->size, time_s), 0.5f), 0.0f);
+        mat3 rotation; /* the columns of a rotation are the rows of its inverse */
+        kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
+        for (int i = 0; turned && i < 3; i++)
+            out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
+    } else {
+        const bool has_axis = object->kind != KILN_OBJECT_SPHERE;
+        const float height = has_axis ? kiln_scene_value(scene, &object->height, time_s) : 0.0f;
+        const float radius = kiln_scene_value(scene, &object->radius, time_s);
+        out->extent = (float4){radius, 0.5f * height, radius, radius};
+        if (has_axis)
+            fill_axis(kiln_direction(kiln_scene_value3(scene, &object->axis, time_s)), out);
     }
+    out->center = with_w(kiln_scene_value3(scene, &object->center, time_s), size_of(out));
 }
 
-uint32_t kiln_boxes_fill(const struct kiln_scene *scene, float time_s, float4 *centers,
-                         float4 *halves, float4 *colors)
+/* Fills in all shapes in the order of their kinds. */
+static void fill_kinds(const struct kiln_scene *scene, float time_s,
+                       struct kiln_draw_shapes *shapes)
 {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
-        const struct kiln_object *box = &scene->backdrop.objects[i];
-        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_oriented_box(box))
-            continue;
-        const float3 size = kiln_scene_value3(scene, &box->size, time_s);
-        centers[count] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
-        halves[count] = half_of_box(size);
-        if (colors)
-            colors[count] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
-        count++;
-    }
-    return count;
-}
-
-/* Fills in the outlines of boxes and cylinders as seen from the sun. */
-static void fill_sun(const struct kiln_sun_frame *sun, struct kiln_draw_shapes *shapes)
-{
-    shapes->edges = kiln_sun_edges_of(sun->towards);
-    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
-        float way[3];
-        for (int k = 0; k < 3; k++) {
-            const float4 row = shapes->oriented_boxes[i].rows[k];
-            way[k] = float3_dot((float3){row.x, row.y, row.z}, sun->towards);
+    uint32_t first[4 * KILN_SHAPE_FIRSTS] = {0};
+    for (uint32_t kind = 0; kind < SHAPE_KINDS; kind++) {
+        for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+            const struct kiln_object *object = &scene->backdrop.objects[i];
+            if (shape_of(object) == kind)
+                fill_shape(scene, object, time_s, &shapes->shapes[shapes->counts.x++]);
         }
-        shapes->oriented_edges[i] = kiln_sun_edges_of((float3){way[0], way[1], way[2]});
+        first[kind + 1] = shapes->counts.x;
     }
-    for (uint32_t i = 0; i < shapes->counts.y; i++)
-        shapes->bands[i] = kiln_sun_band_of(shapes->cylinder_axis[i], sun->towards, sun->right);
+    static_assert(sizeof first == sizeof shapes->first, "as in GLSL");
+    memcpy(shapes->first, first, sizeof first);
 }
 
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
@@ -273,29 +300,29 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
     shapes->sun_up = with_w(sun->up, sun->spread);
     if (kiln_shape_features(scene).floor_gloss)
         fill_gloss(scene, time_s, shapes);
+    fill_kinds(scene, time_s, shapes);
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        float3 center = kiln_scene_value3(scene, &object->center, time_s);
-        float4 color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
-        float radius = kiln_scene_value(scene, &object->radius, time_s);
-        if (object->kind == KILN_OBJECT_SPHERE) {
-            uint k = shapes->counts.x++;
-            shapes->spheres[k] = with_w(center, radius);
-            shapes->sphere_color[k] = color;
-        } else if (object->kind == KILN_OBJECT_CYLINDER) {
-            uint k = shapes->counts.y++;
-            float3 axis = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
-            shapes->cylinders[k] = with_w(center, radius);
-            shapes->cylinder_axis[k] =
-                with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
-            shapes->cylinder_color[k] = color;
-        } else if (kiln_object_is_mesh(object)) {
-            uint k = shapes->counts.z++;
-            fill_mesh(scene, object, meshes[k], time_s, &shapes->meshes[k]);
-        } else {
-            fill_oriented(scene, object, time_s, shapes);
-        }
+        if (!kiln_object_is_mesh(object))
+            continue;
+        const uint32_t k = shapes->counts.z++;
+        fill_mesh(scene, object, meshes[k], time_s, &shapes->meshes[k]);
     }
-    fill_sun(sun, shapes);
     fill_paint(scene, shapes);
+}
+
+void kiln_shapes_see(const struct kiln_draw_shapes *shapes, float3 towards,
+                     struct kiln_shape_seen seen[KILN_MAX_OBJECTS])
+{
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        const struct kiln_draw_shape *shape = &shapes->shapes[i];
+#define SEE(KIND, name)                                                                            \
+    if (shape->kind.x == SHAPE_##KIND) {                                                           \
+        const struct name##_seen found = name##_seen_along(*shape, towards);                       \
+        static_assert(sizeof found <= sizeof seen->numbers, "each kind has room");                 \
+        memcpy(seen[i].numbers, &found, sizeof found);                                             \
+    }
+        KILN_SHAPES(SEE)
+#undef SEE
+    }
 }

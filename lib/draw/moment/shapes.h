@@ -1,6 +1,5 @@
 /* This header declares functions that fill in the uniform block of shapes (shared/shape_layout.h):
- * the backdrop's objects except axis-aligned boxes, the floor's gloss and waves, and the sun's
- * frame. */
+ * the backdrop's objects, the floor's gloss and waves, and the sun's frame. */
 #ifndef KILN_DRAW_MOMENT_SHAPES_H
 #define KILN_DRAW_MOMENT_SHAPES_H
 
@@ -9,15 +8,16 @@
 #include "shared/shape_layout.h"
 
 /* Holds the features of the shaders that a scene needs; each set of features is a shader variant.
- * solids: there are opaque particles, which throw shadows; instances: some particles are meshes
- * with silhouette tiles (lib/draw/light/instance_tiles.h). */
+ * kinds: a bit for each kind of shape, SHAPE_*; solids: there are opaque particles, which throw
+ * shadows; instances: some particles are meshes with silhouette tiles
+ * (lib/draw/light/instance_tiles.h). */
 struct kiln_shape_features {
-    bool round, oriented, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image,
-        soft_sun;
+    uint32_t kinds;
+    bool meshes, paint, solids, instances, floor_image, floor_gloss, sky_image;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-#define KILN_SHAPE_DEFINES 240 /* bytes of the text of kiln_shape_defines */
+#define KILN_SHAPE_DEFINES 400 /* bytes of the text of kiln_shape_defines */
 
 /* Writes the "#define" lines of the variant, as kiln_program_params takes them. samples: rays a
  * pixel. */
@@ -42,10 +42,22 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
                       const struct kiln_sun_frame *sun, float time_s,
                       struct kiln_draw_shapes *shapes);
 
-/* Fills in the boxes that lie along the axes, which struct kiln_draw_backdrop holds, in the scene's
- * order: their centres, m, halves of their sizes, m, and colours (NULL: not wanted), each of
- * KILN_MAX_OBJECTS. Returns how many there are. */
-uint32_t kiln_boxes_fill(const struct kiln_scene *scene, float time_s, float4 *centers,
-                         float4 *halves, float4 *colors);
+/* Returns how far a shape extends from its centre along a unit vector, m. */
+float kiln_shape_reach(const struct kiln_draw_shape *shape, float3 way);
+
+/* Returns a bit for each shape that hides lights by its place, which all do but planes. */
+static inline uint32_t kiln_shapes_that_hide(const struct kiln_draw_shapes *shapes)
+{
+    uint32_t hide = 0;
+    for (uint32_t i = 0; i < shapes->counts.x; i++)
+        hide |= (uint32_t)(shapes->shapes[i].kind.x != SHAPE_PLANE) << i;
+    return hide;
+}
+
+/* Returns how many objects may hide a part of the sky from surfaces. */
+static inline uint32_t kiln_shapes_under_sky(const struct kiln_draw_shapes *shapes)
+{
+    return shapes->counts.z + (uint32_t)__builtin_popcount(kiln_shapes_that_hide(shapes));
+}
 
 #endif

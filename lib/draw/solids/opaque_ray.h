@@ -58,14 +58,16 @@ SIMD_ONCE void light_place(const struct kiln_ray_frame *frame, const struct visi
                                 .surface = vf_all(0.0f),
                                 .normal = place->normal,
                                 .albedo = place->albedo};
+    const struct cached_rays cached = not_cached();
     const struct lit_surface surface = {.point = {place->at, hit.normal, visible->part > 0.0f},
-                                        .middle = &place->middle};
+                                        .middle = &place->middle,
+                                        .cached = &cached};
     const struct ray_point point = surface.point;
     vf sunlit = sun_visibility(frame, place->sun_from, point.normal, facing_sun(frame, &point));
     const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
     sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
     const struct hit_light light = {light_without_sun(frame, &surface).irradiance, sunlit};
-    const struct ray_color lit = radiance(frame, &hit, place->direction, &light, NULL);
+    const struct ray_color lit = radiance(frame, &hit, place->direction, &light, &cached);
     struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);
     color->rgb = vf3_add(place->glow, shown);
     color->alpha = visible->part;

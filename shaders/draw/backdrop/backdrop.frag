@@ -1,27 +1,26 @@
 /* Draws the scene behind the particles by ray casting: a sky gradient, a floor that fades into the
- * horizon, boxes, a sun with hard shadows, and point lights. View-space depth goes to a texture of
+ * horizon, shapes, a sun with shadows, and point lights. View-space depth goes to a texture of
  * its own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). Defines compile in the parts that not
- * every scene has: ROUND shapes (spheres, cylinders), ORIENTED ones (capsules, oriented boxes,
- * planes), MESHES, shadows of particles that are SOLIDS or INSTANCES of meshes, PAINT on meshes,
- * FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
+ * every scene has: KILN_SHAPES (kinds of shapes), MESHES, shadows of particles that are SOLIDS or
+ * INSTANCES of meshes, PAINT on meshes, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE.
  *
  * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
  * each pixel and notes which surface it hits. The second casts SAMPLES rays more a pixel at edges,
  * which are where neighbouring pixels hit different surfaces: backdrop_edges.vert finds the tiles
  * that have edges, this shader their pixels. Those rays of a pixel that hit one smooth piece of
  * surface share a colour, unless a shadow parts the pixel. */
-// variant: SAMPLES=1
+// variant: SAMPLES=1 KILN_SHAPES(ROW)=
+// variant: SAMPLES=4 KILN_SHAPES(ROW)=
+// variant: SAMPLES=1 KILN_SHAPES(ROW)=ROW(BOX,box)
+// variant: SAMPLES=4 KILN_SHAPES(ROW)=ROW(CYLINDER,cylinder)ROW(PLANE,plane)
+// variant: SAMPLES=1 KILN_SHAPES(ROW)=ROW(CAPSULE,capsule)
 // variant: SAMPLES=4
-// variant: SAMPLES=1 ROUND=1
-// variant: SAMPLES=4 ROUND=1 SOFT_SUN=1
-// variant: SAMPLES=1 ORIENTED=1
-// variant: SAMPLES=4 ORIENTED=1 SOFT_SUN=1
 // variant: SAMPLES=1 MESHES=1
 // variant: SAMPLES=1 MESHES=1 PAINT=1
 // variant: SAMPLES=1 SOLIDS=1
-// variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1
 // variant: SAMPLES=1 FLOOR_GLOSS=1
-// variant: SAMPLES=4 ROUND=1 ORIENTED=1 MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=4 MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 
@@ -83,30 +82,7 @@ vec4 floor_along(vec3 origin, vec3 direction)
 hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
 {
     hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
-    vec3 inverse = ray_inverse3(direction);
-    int found = -1;
-    for (int i = 0; i < int(backdrop.counts.x); i++) {
-        ray_interval at = ray_slabs_interval(cross_box(i, origin, inverse));
-        if (ray_meets(at, nearest.t)) {
-            nearest.t = at.near;
-            found = i;
-        }
-    }
-    if (found >= 0) {
-        nearest.normal = ray_slabs_normal(cross_box(found, origin, inverse), inverse);
-        nearest.albedo = backdrop.box_color[found].rgb;
-        nearest.surface = KILN_SURFACE_BOX(KILN_SURFACE_BOXES, found) +
-                          int(ray_face_number(nearest.normal));
-    }
-#ifdef ROUND
-    trace_spheres(origin, direction, nearest);
-    trace_cylinders(origin, direction, nearest);
-#endif
-#ifdef ORIENTED
-    trace_capsules(origin, direction, nearest);
-    trace_oriented_boxes(origin, direction, nearest);
-    trace_planes(origin, direction, nearest);
-#endif
+    trace_shapes(origin, direction, nearest);
 #ifdef MESHES
     if (layer >= 0)
         trace_meshes(layer, nearest);

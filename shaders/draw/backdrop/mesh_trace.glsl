@@ -104,7 +104,7 @@ float mesh_sun_visibility(vec3 point, vec3 normal)
 
 /* Returns the part of lamp i that meshes cover, by fetches as in mesh_sun_cover. way: from the point
  * to the lamp. */
-float mesh_lamp_cover(int i, vec3 normal, lamp_way way)
+float mesh_lamp_cover(int i, vec3 normal, light_way way)
 {
     float radius = backdrop.lights[i].color.w, far = backdrop.lights[i].maps.x;
     lamp_place place = lamp_place_of(-way.direction * way.reach, normal, far);

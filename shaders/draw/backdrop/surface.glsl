@@ -4,13 +4,11 @@
  * shaders in shaders/draw/solids include it for solid particles.
  *
  * The including shader declares the blocks `view`, `backdrop` and `shapes`. Defines compile in the
- * shadows of shapes that not every scene has: ROUND (spheres, cylinders), ORIENTED (capsules,
- * oriented boxes, planes), MESHES, SOLIDS (solid particles). SKY_IMAGE takes the sky from an image,
- * and SOFT_SUN gives the sun a size, so that shadows have penumbras. */
+ * shadows of what not every scene has: KILN_SHAPES (kinds of shapes), MESHES, SOLIDS (solid
+ * particles). SKY_IMAGE takes the sky from an image. */
 #include "draw/light/smoke_shadow.glsl"
 #include "shared/lamp.h"
-#include "shared/lamp_cover.h"
-#include "shared/shape_rays.h"
+#include "shared/light_cover.h"
 #include "shared/surface_light.h"
 
 const float FAR = 1e9; /* the t of a ray that hits nothing, m */
@@ -19,7 +17,7 @@ const float PI = SURFACE_PI;
 /* Describes the point that a ray hits. */
 struct hit {
     float t;     /* the point is origin + t * direction */
-    int surface; /* KILN_SURFACE_* and its own number; 0: the floor; -1: nothing, so the sky */
+    int surface; /* KILN_SURFACE_*; 0: the floor; -1: nothing, so the sky */
     vec3 normal; /* unit */
     vec3 albedo;
 };
@@ -39,43 +37,7 @@ vec3 ray_direction(vec2 pixel)
     return view_to_world(vec3(vec2(ndc.x, -ndc.y) * view.frustum.xy - view.principal.zw, -1.0));
 }
 
-/* Intersects a ray with the slabs of axis-aligned box i. `inverse` is ray_inverse3 of the ray's
- * direction. */
-ray_slabs cross_box(int i, vec3 origin, vec3 inverse)
-{
-    return ray_cross_slabs(backdrop.box_center[i].xyz - origin, backdrop.box_half[i], inverse);
-}
-
-/* Returns the part of the sun, 0 to 1, that a box leaves visible. `slabs` tells where a ray towards
- * the sun crosses the slabs of the box. */
-float box_sun_visibility(ray_slabs slabs, sun_edges edges)
-{
-#ifdef SOFT_SUN
-    /* The margin exceeds the rounding error of a ray's position. It stays below the 1e-3 m by which
-     * rays start off their surface (sun_visibility). */
-    const float margin = 1e-4, lit_radius = 0.0; /* m; a point is lit, not a ball */
-    box_outline outline = box_outline_all(edges);
-    float cover = box_cover(slabs, outline, shapes.sun_right.w, lit_radius);
-    return box_span_of(slabs, outline, margin).exit > 0.0 ? 1.0 - cover : 1.0;
-#else
-    return ray_is_blocked(ray_slabs_interval(slabs)) ? 0.0 : 1.0;
-#endif
-}
-
-/* Returns whether an object may hide a lamp, and moves the bits on to those of the next object. */
-bool take_caster(inout uint casters)
-{
-    bool casts = (casters & 1u) != 0u;
-    casters >>= 1;
-    return casts;
-}
-
-#ifdef ROUND
-#include "draw/backdrop/round.glsl"
-#endif
-#ifdef ORIENTED
-#include "draw/backdrop/oriented.glsl"
-#endif
+#include "draw/backdrop/shapes.glsl"
 #ifdef MESHES
 #include "draw/backdrop/mesh_trace.glsl"
 #endif
@@ -87,25 +49,12 @@ bool take_caster(inout uint casters)
 #include "draw/backdrop/sky_image.glsl"
 #endif
 
-float aligned_sun_visibility(vec3 origin)
-{
-    float visible = 1.0;
-    for (int i = 0; i < int(backdrop.counts.x); i++)
-        visible *= box_sun_visibility(cross_box(i, origin, shapes.edges.inverse.xyz), shapes.edges);
-    return visible;
-}
-
 /* Returns the part of the sun, 0 to 1, that the objects leave visible from a point of a surface. */
 float sun_visibility(vec3 point, vec3 normal)
 {
-    vec3 origin = point + normal * 1e-3;
-    float visible = aligned_sun_visibility(origin);
-#ifdef ROUND
-    visible *= round_sun_visibility(origin);
-#endif
-#ifdef ORIENTED
-    visible *= oriented_sun_visibility(origin);
-#endif
+    vec3 origin = point + normal * LIGHT_START;
+    float visible = shapes_light_visibility(
+        ~0u, origin, sun_way_of(backdrop.sun_direction, shapes.sun_right.w, 0.0));
 #ifdef MESHES
     visible *= mesh_sun_visibility(origin, normal);
 #endif
@@ -119,18 +68,7 @@ float sun_visibility(vec3 point, vec3 normal)
  * Solid particles do not count. */
 float sky_visibility(vec3 point, vec3 normal)
 {
-    float visible = 1.0;
-    for (int i = 0; i < int(backdrop.counts.x); i++) {
-        vec3 towards = backdrop.box_center[i].xyz - point;
-        if (sky_meets_box(backdrop.box_half[i], towards, normal))
-            visible *= sky_beside_box(backdrop.box_half[i], towards, normal);
-    }
-#ifdef ROUND
-    visible *= round_sky_visibility(point, normal);
-#endif
-#ifdef ORIENTED
-    visible *= oriented_sky_visibility(point, normal);
-#endif
+    float visible = shapes_sky_visibility(point, normal);
 #ifdef MESHES
     visible *= mesh_sky_visibility(point, normal);
 #endif
@@ -182,22 +120,9 @@ vec3 horizon(vec3 direction)
  * particles. */
 float lamp_visibility(int i, vec3 point, vec3 normal)
 {
-    uint casters = backdrop.lights[i].casters.x;
-    vec3 origin = point + normal * LAMP_START;
-    lamp_way way = lamp_way_to(backdrop.lights[i], origin, normal, 0.0);
-    float visible = 1.0;
-    int boxes = casters == 0u ? 0 : int(backdrop.counts.x);
-    for (int k = 0; k < boxes; k++) {
-        vec3 towards = backdrop.box_center[k].xyz - origin;
-        if (take_caster(casters) && lamp_meets(towards, backdrop.box_half[k].w, way))
-            visible *= 1.0 - lamp_box_cover(towards, backdrop.box_half[k], way.direction, way);
-    }
-#ifdef ROUND
-    visible *= round_lamp_visibility(casters, origin, way);
-#endif
-#ifdef ORIENTED
-    visible *= oriented_lamp_visibility(casters, origin, way);
-#endif
+    vec3 origin = point + normal * LIGHT_START;
+    light_way way = lamp_way_to(backdrop.lights[i], origin, normal, 0.0);
+    float visible = shapes_light_visibility(backdrop.lights[i].casters.x, origin, way);
 #if defined MESHES || defined SOLIDS
     way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin, backdrop.lights[i].color.w,
                       0.0);

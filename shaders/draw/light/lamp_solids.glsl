@@ -9,7 +9,7 @@ vec4 lit_middle = vec4(0.0);
 
 /* Returns the part of lamp i that solids cover, by fetches as in mesh_sun_cover. way: from the
  * point to the lamp. */
-float solid_lamp_cover(int i, vec3 normal, lamp_way way)
+float solid_lamp_cover(int i, vec3 normal, light_way way)
 {
     float radius = backdrop.lights[i].color.w, far = max(backdrop.lights[i].maps.w, 1e-4);
     int number = int(backdrop.lights[i].casters.y >> KILN_LAMP_SOLID_SHIFT);

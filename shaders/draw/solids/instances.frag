@@ -3,7 +3,7 @@
  * may cover only some of the four samples: those at the pixel's middle, or at the triangle's edge
  * where the middle is outside of the triangle. */
 // variant: SOLIDS=1
-// variant: SOLIDS=1 INSTANCES=1 ROUND=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SOLIDS=1 INSTANCES=1 MESHES=1 SKY_IMAGE=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

@@ -14,7 +14,7 @@
  * draws the same picture on the host, with samples at the same places. */
 // variant: SOLIDS=1
 // variant: SOLIDS=1 PATTERN=1
-// variant: SOLIDS=1 ROUND=1 ORIENTED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SOLIDS=1 MESHES=1 SKY_IMAGE=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

@@ -1,0 +1,56 @@
+/* Finds the nearest shape of the backdrop that a ray hits, and how much of the sky and of a light
+ * shapes leave visible from a point. shared/shapes.h lists the kinds of shapes, each of which has a
+ * loop here. The loops have no branch, since software GL runs both sides of one. */
+#include "shared/shapes.h"
+
+/* Replaces `nearest` by the ray's nearest hit on a shape if that is nearer. */
+void trace_shapes(vec3 origin, vec3 direction, inout hit nearest)
+{
+    int found;
+#define TRACE(KIND, name)                                                                          \
+    found = -1;                                                                                    \
+    for (int i = KILN_SHAPES_FROM(SHAPE_##KIND); i < KILN_SHAPES_FROM(SHAPE_##KIND + 1u); i++) {   \
+        ray_interval at = name##_cross(shapes.shapes[i], origin, direction);                       \
+        if (ray_meets(at, nearest.t)) {                                                            \
+            nearest.t = at.near;                                                                   \
+            found = i;                                                                             \
+        }                                                                                          \
+    }                                                                                              \
+    if (found >= 0) {                                                                              \
+        shape_face face = name##_face(shapes.shapes[found], origin, direction, nearest.t);         \
+        nearest.normal = face.normal;                                                              \
+        nearest.albedo = shapes.shapes[found].color.rgb;                                           \
+        nearest.surface = KILN_SURFACE_SHAPE(found) + int(face.number);                            \
+    }
+    KILN_SHAPES(TRACE)
+}
+
+/* Returns the part of the sky, 0 to 1, that shapes leave visible from a surface's point. */
+float shapes_sky_visibility(vec3 point, vec3 normal)
+{
+    float visible = 1.0;
+#define SKY(KIND, name)                                                                            \
+    for (int i = KILN_SHAPES_FROM(SHAPE_##KIND); i < KILN_SHAPES_FROM(SHAPE_##KIND + 1u); i++)     \
+        visible *= name##_sky(shapes.shapes[i], shapes.shapes[i].center.xyz - point, normal);
+    KILN_SHAPES(SKY)
+    return visible;
+}
+
+/* Returns the part of a light, 0 to 1, that shapes leave visible. casters: a bit for each shape that
+ * may hide it. */
+float shapes_light_visibility(uint casters, vec3 origin, light_way way)
+{
+    float visible = 1.0;
+#define HIDE(KIND, name)                                                                           \
+    for (int i = KILN_SHAPES_FROM(SHAPE_##KIND); i < KILN_SHAPES_FROM(SHAPE_##KIND + 1u); i++) {   \
+        vec3 towards = shapes.shapes[i].center.xyz - origin;                                       \
+        bool near = (casters >> i & 1u) != 0u &&                                                   \
+                    light_meets_sphere(way, towards, shapes.shapes[i].center.w);                   \
+        name##_seen seen = name##_seen_along(shapes.shapes[i], way.direction);                     \
+        if (near)                                                                                  \
+            visible *= 1.0 - light_hidden(way, name##_cover(shapes.shapes[i], seen, towards, way,  \
+                                                            near));                                \
+    }
+    KILN_SHAPES(HIDE)
+    return visible;
+}

@@ -1,0 +1,131 @@
+/* Declares what all kinds of shapes of the backdrop have in common: their frame, the interval in
+ * which a ray is inside, and the sky beside them. Each kind has a file shape_KIND.h; shapes.h lists
+ * them. Every shape is convex. In the names of formulas, a ray that misses leaves a shape before it
+ * enters, and `towards` is the way from a point to the shape's centre, m. */
+#ifndef KILN_SHARED_SHAPE_H
+#define KILN_SHARED_SHAPE_H
+
+#include "shared/light_cover.h"
+#include "shared/shape_layout.h"
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+/* Turns a vector of the world into the frame of a shape. In C, most shapes are spared this. */
+REAL_FN real3 shape_into(S(kiln_draw_shape) s, real3 v)
+{
+#ifndef GL_core_profile
+    if (s.kind.y == 0u)
+        return v;
+#endif
+    return REAL3(real3_dot_all(v, s.rows[0]), real3_dot_all(v, s.rows[1]),
+                 real3_dot_all(v, s.rows[2]));
+}
+
+/* Turns a vector out of the frame of a shape. */
+REAL_FN real3 shape_out_of(S(kiln_draw_shape) s, real3 v)
+{
+#ifndef GL_core_profile
+    if (s.kind.y == 0u)
+        return v;
+#endif
+    return REAL3(v.x * s.rows[0].x + v.y * s.rows[1].x + v.z * s.rows[2].x,
+                 v.x * s.rows[0].y + v.y * s.rows[1].y + v.z * s.rows[2].y,
+                 v.x * s.rows[0].z + v.y * s.rows[1].z + v.z * s.rows[2].z);
+}
+
+/* Returns the component of a vector along a shape's axis. */
+REAL_FN real shape_along(S(kiln_draw_shape) s, real3 v)
+{
+    return real3_dot_all(v, s.rows[1]);
+}
+
+/* Returns the components of a vector across a shape's axis. along: that along it. */
+REAL_FN real3 shape_across(S(kiln_draw_shape) s, real3 v, real along)
+{
+    return real3_add_scaled(v, real3_all(s.rows[1]), -along);
+}
+
+/* ---- rays ------------------------------------------------------------------------------------ */
+
+/* The t at which a ray enters and leaves. */
+struct ray_interval {
+    real near, far;
+};
+
+REAL_FN S(ray_interval) ray_interval_of(real near, real far)
+{
+    S(ray_interval) interval;
+    interval.near = near;
+    interval.far = far;
+    return interval;
+}
+
+REAL_FN S(ray_interval) ray_interval_or_miss(truth hits, real near, real far)
+{
+    return ray_interval_of(real_select(hits, near, real_all(1.0f)),
+                           real_select(hits, far, real_all(-1.0f)));
+}
+
+/* Returns where an object is ahead of a ray's start and nearer to it than `t`. */
+REAL_FN truth ray_meets(S(ray_interval) at, real t)
+{
+    return truth_and(truth_and(at.near <= at.far, at.near > 0.0f), at.near < t);
+}
+
+/* Returns 1 / x, or a large number where x is 0. */
+REAL_FN real ray_inverse(real x)
+{
+    return real_sign_one(x) / real_max(real_abs(x), real_all(1e-8f));
+}
+
+REAL_FN real3 ray_inverse3(real3 direction)
+{
+    return REAL3(ray_inverse(direction.x), ray_inverse(direction.y), ray_inverse(direction.z));
+}
+
+/* Returns the t at which a ray from above a plane meets it; a large number for other rays. height:
+ * of the ray's start above the plane; climb: of its direction. */
+REAL_FN real ray_cross_plane(real height, real climb)
+{
+    truth falls = truth_and(climb<-1e-6f, height> 0.0f);
+    return real_select(falls, height / -real_select(falls, climb, real_all(-1.0f)), real_all(2e9f));
+}
+
+/* The surface that a ray enters a shape by. */
+struct shape_face {
+    real3 normal; /* unit, of the world */
+    real number;  /* a whole number, KILN_FACE_LEAST to KILN_FACE_MOST: two faces meet at an edge */
+};
+
+/* ---- the sky beside shapes ------------------------------------------------------------------- */
+
+/* Returns how much a surface is turned towards an object, 0 to 1; a little of an object behind the
+ * surface counts as well. along_normal: of the way to the object's middle. */
+REAL_FN real sky_facing(real along_normal, real distance2)
+{
+    return real_clamp01(along_normal * real_rsqrt(real_max(distance2, real_all(1e-9f))) + 0.4f);
+}
+
+/* Returns the part of the sky that an object does not hide. fall: the part of the view that it
+ * fills, 0 to 1. The darkening does not follow the exact solid angle; it makes objects look as if
+ * they stood on the floor. */
+REAL_FN real sky_left(real facing, real fall)
+{
+    return 1.0f - 0.7f * facing * fall;
+}
+
+/* Returns the part of the sky that a shape does not hide from a surface, which hides none where it
+ * is wholly behind the surface. distance: from the surface's point to the shape, m; size: of the
+ * shape, m; reach: how far it extends from its centre along the normal, m. */
+REAL_FN real sky_beside(real3 towards, real3 normal, real distance, float size, real reach)
+{
+    real along = real3_dot(towards, normal);
+    truth hides = along > 1e-3f - reach;
+    if (!real_some(hides))
+        return real_all(1.0f);
+    real fall = size / (size + 2.0f * distance);
+    real left = sky_left(sky_facing(along, real3_dot(towards, towards)), fall * fall);
+    return real_select(hides, left, real_all(1.0f));
+}
+
+#endif
