@@ -13,7 +13,7 @@
 #define KILN_MAX_BURSTS           64 /* a system */
 #define KILN_MAX_OBJECTS          32 /* a scene */
 #define KILN_MAX_MESHES           8  /* a scene, including terrain; meshes also count as objects */
-#define KILN_MAX_LIGHTS           16 /* a scene */
+#define KILN_MAX_LIGHTS           64 /* a scene */
 #define KILN_MAX_DEPTH_DIRECTIONS 6  /* a mesh; each direction has a front and a back */
 
 /* Generations from a first parent to its last descendants. */

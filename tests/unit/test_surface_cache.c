@@ -193,7 +193,7 @@ static void expect(struct fixture *f, enum kiln_cache_use use, uint32_t lamps)
     kiln_surface_cache_begin(f->cache, &f->inputs);
     assert_int_equal(f->cache->use, use);
     if (use != KILN_CACHE_UNUSED)
-        assert_int_equal(f->cache->lamps, lamps);
+        assert_int_equal(f->cache->lamps.words[0], lamps);
 }
 
 static void the_second_picture_fills_it(void **state)

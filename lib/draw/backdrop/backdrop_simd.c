@@ -35,10 +35,10 @@ static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture 
     struct grid_lights lights = {.sky = kiln_shapes_under_sky(p->frame->shapes) > 0};
     for (uint32_t i = 0; i < b->counts.y; i++) {
         if (casters->lamps[i] | b->lights[i].casters.y)
-            lights.lamps |= 1u << i;
+            kiln_bits_add(lights.lamps.words, i);
     }
     if (p->use == KILN_CACHE_FILLED)
-        lights = (struct grid_lights){lights.lamps & ~p->cache->lamps, false};
+        lights = (struct grid_lights){kiln_lamps_without(&lights.lamps, &p->cache->lamps), false};
     return lights;
 }
 
@@ -211,13 +211,14 @@ static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
     struct kiln_ray_frame frame = *whole->frame;
     picture.frame = &frame;
     const struct grid_lights all = find_shadow_lights(whole, frame.all_casters);
+    const bool any_light = all.sky || kiln_lamps_any(&all.lamps);
     struct light_grid room, mirrored_room;
     struct strip_hits strip;
     struct kiln_lit_box fresh;
     for (uint32_t x = 0; x < whole->width; x += STRIP) {
         struct kiln_lit_box *lit =
             whole->use == KILN_CACHE_UNUSED ? &fresh : box_in_cache(whole->cache, x, y);
-        const bool has_grid = all.lamps || all.sky || needs_grid(whole, lit);
+        const bool has_grid = any_light || needs_grid(whole, lit);
         struct light_grid *grid = has_grid ? &room : NULL;
         struct light_grid *mirrored = has_grid && frame.floor_gloss ? &mirrored_room : NULL;
         /* with a column and a row more, for the nodes */

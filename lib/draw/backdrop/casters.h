@@ -6,11 +6,38 @@
 
 #include <assert.h>
 
+#include "base/bits.h"
 #include "draw/backdrop/backdrop_inputs.h"
+
+/* The most lamps of a picture: those of the scene, and of fire. */
+enum { KILN_MOST_LAMPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS };
+
+/* A bit for each lamp. */
+struct kiln_lamp_set {
+    uint32_t words[KILN_BIT_WORDS(KILN_MOST_LAMPS)];
+};
+
+static inline bool kiln_lamps_any(const struct kiln_lamp_set *set)
+{
+    uint32_t any = 0;
+    for (uint32_t i = 0; i < KILN_BIT_WORDS(KILN_MOST_LAMPS); i++)
+        any |= set->words[i];
+    return any != 0;
+}
+
+/* Returns the lamps of one set that are not in another. */
+static inline struct kiln_lamp_set kiln_lamps_without(const struct kiln_lamp_set *set,
+                                                      const struct kiln_lamp_set *others)
+{
+    struct kiln_lamp_set left;
+    for (uint32_t i = 0; i < KILN_BIT_WORDS(KILN_MOST_LAMPS); i++)
+        left.words[i] = set->words[i] & ~others->words[i];
+    return left;
+}
 
 /* Objects have a bit each, in the order of kiln_draw_light.casters.x, and so have meshes. */
 struct kiln_casters {
-    uint32_t lamps[KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS]; /* by lamp: objects */
+    uint32_t lamps[KILN_MOST_LAMPS]; /* by lamp: objects */
     uint32_t sun_objects, sun_meshes;
 };
 

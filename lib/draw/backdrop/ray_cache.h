@@ -67,10 +67,9 @@ SIMD void fill_cached_hit(const struct cached_rays *rays, const struct ray_hit *
 /* Returns the plane of lamp i; 0: it has none that holds. */
 SIMD uint32_t plane_of_lamp(const struct cached_rays *rays, uint32_t i)
 {
-    if (rays->use == KILN_CACHE_UNUSED || !(rays->cache->lamps >> i & 1))
+    if (rays->use == KILN_CACHE_UNUSED || !kiln_bits_have(rays->cache->lamps.words, i))
         return 0;
-    const uint32_t before = rays->cache->has_plane & ((1u << i) - 1);
-    return rays->cache->first_lamp + (uint32_t)__builtin_popcount(before);
+    return rays->cache->first_lamp + kiln_bits_below(rays->cache->has_plane.words, i);
 }
 
 /* Returns the planes of the reflections of rays from the eye. */

@@ -27,7 +27,7 @@ enum {
     GRID_NODE_ROOM = 64, /* GRID_NODES, rounded up to whole vectors */
     GRID_BLOCKS_A_ROW = GRID_WIDTH / GRID_STEP,
     GRID_BLOCKS = GRID_BLOCKS_A_ROW * (GRID_HEIGHT / GRID_STEP),
-    GRID_LAMPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
+    GRID_LAMPS = KILN_MOST_LAMPS,
     /* Numbers of lights after those of lamps, and of all lights that smoke may hide. */
     GRID_SUN = GRID_LAMPS,
     GRID_SKY,
@@ -48,7 +48,7 @@ enum {
 
 /* Describes what is interpolated. */
 struct grid_lights {
-    uint32_t lamps; /* a bit for each */
+    struct kiln_lamp_set lamps;
     bool sky;
 };
 
@@ -214,8 +214,8 @@ SIMD struct grid_blocks grid_blocks_from(int first)
 
 /* Decides for LANES blocks whether their corners lie on one smooth piece of surface, and which
  * lamps shapes hide smoothly. */
-SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t lamps,
-                         struct light_grid *grid)
+SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first,
+                         const struct kiln_lamp_set *lamps, struct light_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const vi node = grid_blocks_from(first).node;
@@ -235,7 +235,7 @@ SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t
     memcpy(grid->alike + first, &alike, sizeof alike);
     vf_store(grid->size2 + first, size2);
     for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (!(lamps >> i & 1))
+        if (!kiln_bits_have(lamps->words, i))
             continue;
         const struct kiln_draw_light *lamp = &b->lights[i];
         vi smooth = alike;

@@ -40,12 +40,12 @@ void KILN_SIMD_NAME(kiln_rays_judge_grid)(const struct kiln_ray_frame *frame,
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     for (int first = 0; first < GRID_BLOCKS; first += LANES)
-        judge_surfaces(frame, first, lights.lamps, grid);
+        judge_surfaces(frame, first, &lights.lamps, grid);
     memset(grid->sky_smooth, 0, sizeof grid->sky_smooth);
     if (lights.sky && are_some(grid->alike))
         judge_sky(frame, grid);
     for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (!(lights.lamps >> i & 1) || !are_some(grid->smooth[i]))
+        if (!kiln_bits_have(lights.lamps.words, i) || !are_some(grid->smooth[i]))
             continue;
         for (int first = 0; first < GRID_NODES; first += LANES)
             light_nodes(frame, i, first, grid);

@@ -12,7 +12,6 @@ enum {
     STRIP = 64, /* px; rows are stored in whole strips */
     /* Pixels at edges that have room, as a multiple of a row's, for each KILN_EDGE_TILE rows. */
     EDGE_ROWS = 2,
-    MOST_LIGHTS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
 };
 
 static uint32_t tiles_of(const struct kiln_surface_cache *cache)
@@ -34,7 +33,7 @@ struct kiln_surface_cache *kiln_surface_cache_create(const struct kiln_scene *sc
         cache->strips =
             calloc((size_t)tiles_of(cache) * (cache->width / STRIP), sizeof *cache->strips);
         cache->shown = calloc(1, sizeof *cache->shown);
-        cache->lights = calloc(MOST_LIGHTS, sizeof *cache->lights);
+        cache->lights = calloc(KILN_MOST_LAMPS, sizeof *cache->lights);
     }
     if (!cache || !cache->flags || !cache->edges || !cache->strips || !cache->shown ||
         !cache->lights) {
@@ -112,18 +111,17 @@ static struct kiln_draw_light keep_shadows(const struct kiln_draw_light *light)
     return kept;
 }
 
-/* Replaces the lights of the picture before. Returns a bit for each lamp whose shadows are still
- * the same. */
-static uint32_t find_still_lamps(struct kiln_surface_cache *cache,
-                                 const struct kiln_draw_backdrop *block)
+/* Replaces the lights of the picture before. Returns the lamps whose shadows are still the same. */
+static struct kiln_lamp_set find_still_lamps(struct kiln_surface_cache *cache,
+                                             const struct kiln_draw_backdrop *block)
 {
-    uint32_t still = 0;
-    for (uint32_t i = 0; i < MOST_LIGHTS; i++) {
+    struct kiln_lamp_set still = {.words = {0}};
+    for (uint32_t i = 0; i < KILN_MOST_LAMPS; i++) {
         struct kiln_draw_light now = {.color = {0.0f, 0.0f, 0.0f, -1.0f}};
         if (i < block->counts.y)
             now = keep_shadows(&block->lights[i]);
         if (now.color.w >= 0.0f && memcmp(&now, &cache->lights[i], sizeof now) == 0)
-            still |= 1u << i;
+            kiln_bits_add(still.words, i);
         cache->lights[i] = now;
     }
     return still;
@@ -164,13 +162,13 @@ static bool reserve(struct kiln_surface_cache *cache)
 }
 
 static void start_to_fill(struct kiln_surface_cache *cache,
-                          const struct kiln_backdrop_inputs *inputs, uint32_t lamps)
+                          const struct kiln_backdrop_inputs *inputs, struct kiln_lamp_set lamps)
 {
     const bool haze = inputs->block.floor_params.z > 0.0f;
     cache->haze = haze ? KILN_CACHE_PLANES : 0;
     cache->first_lamp = KILN_CACHE_PLANES + (haze ? 3 : 0);
     cache->has_plane = cache->lamps = lamps;
-    cache->planes = cache->first_lamp + (uint32_t)__builtin_popcount(lamps);
+    cache->planes = cache->first_lamp + kiln_bits_below(lamps.words, KILN_MOST_LAMPS);
     cache->use = reserve(cache) ? KILN_CACHE_TO_FILL : KILN_CACHE_UNUSED;
     memset(cache->flags, 0, (size_t)cache->width * cache->height);
     for (uint32_t i = 0; i < tiles_of(cache); i++)
@@ -185,10 +183,11 @@ void kiln_surface_cache_begin(struct kiln_surface_cache *cache,
     const bool same = same_surfaces(&surfaces, cache->shown);
     const bool holds = same && cache->use != KILN_CACHE_UNUSED;
     memcpy(cache->shown, &surfaces, sizeof surfaces);
-    const uint32_t still = find_still_lamps(cache, &inputs->block);
-    if (holds && (still & ~cache->lamps) == 0) {
+    const struct kiln_lamp_set still = find_still_lamps(cache, &inputs->block);
+    const struct kiln_lamp_set more = kiln_lamps_without(&still, &cache->lamps);
+    if (holds && !kiln_lamps_any(&more)) {
         cache->use = KILN_CACHE_FILLED;
-        cache->lamps &= still;
+        cache->lamps = still;
     } else if (same) {
         start_to_fill(cache, inputs, still);
     } else {

@@ -49,8 +49,8 @@ struct kiln_surface_cache {
     uint32_t planes;     /* of a vector of rays */
     uint32_t haze;       /* the first plane of haze; 0: its colour is not kept */
     uint32_t first_lamp; /* the first plane of lamps */
-    /* A bit for each lamp: those that have a plane, and those whose plane holds. */
-    uint32_t has_plane, lamps;
+    /* The lamps that have a plane, and those whose plane holds. */
+    struct kiln_lamp_set has_plane, lamps;
     float *centers;
     uint8_t *flags;                     /* of pixels */
     struct kiln_lit_box *strips;        /* around what strips show (casters.h), by row */

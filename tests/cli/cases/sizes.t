@@ -83,6 +83,17 @@ $ sed '/ s/s/speed/life/' few.yaml >lives.yaml; kiln render lives.yaml -q -o non
 2|kiln: systems: found up to 12288 keys of lives; OpenGL takes at most 1024: use the device cpu
 = 2
 
+Lights, of which shapes hide each:
+
+$ lights() { printf 'kiln: 1\noutput: {size: [64, 36], frames: 9}\nsystems:\n  fire: {emit: {rate: 600}, look: {light: [9, 4, 1], lights: 16}}\nbackdrop:\n  objects: [box: {center: [0, 1, 0]}, sphere: {center: [2, 1, 0]}]\n  lights:\n'; bin/series "$1" '    - point: {position: [%d, 3, 2], color: [1, 2, 3]}\n'; }
+> lights 64 >64.yaml; lights 65 >65.yaml; bin/states 64.yaml; kiln check 65.yaml
+1|  state        0f9c365d2b086fba
+2|65.yaml:8:5: backdrop.lights: found 65 entries; at most 64 are allowed
+= 3
+$ kiln render 64.yaml -q -o none --frames 0 --device software --technique simulate=pingpong
+2|kiln: backdrop.lights: found 64 lights; the technique simulate=pingpong takes at most 16: use simulate=inplace
+= 2
+
 Particles; OpenGL takes half as many. unit.sizes steps and draws them:
 
 $ printf 'kiln: 1\noutput: {size: [32, 18]}\nsystems:\n  dust: {emit: {bursts: {0 s: 33554432}}}\n' >dust.yaml
