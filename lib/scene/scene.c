@@ -89,6 +89,38 @@ bool kiln_scene_view_stands(const struct kiln_scene *scene)
            !(kiln_scene_value_max(scene, &camera->aperture) > 0.0f);
 }
 
+/* Returns whether a colour is ever more than black. */
+static bool ever_shines(const struct kiln_scene *scene, const struct kiln_value3 *color)
+{
+    return kiln_scene_value_max(scene, &color->x) > 0.0f ||
+           kiln_scene_value_max(scene, &color->y) > 0.0f ||
+           kiln_scene_value_max(scene, &color->z) > 0.0f;
+}
+
+bool kiln_scene_has_sun(const struct kiln_scene *scene)
+{
+    return ever_shines(scene, &scene->backdrop.sun_color);
+}
+
+bool kiln_scene_has_firelight(const struct kiln_scene *scene)
+{
+    bool found = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        found |= scene->systems[i].enabled && ever_shines(scene, &scene->systems[i].look.light);
+    return found;
+}
+
+bool kiln_scene_has_smoke(const struct kiln_scene *scene)
+{
+    bool found = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        found |= kiln_system_is_smoke(system) &&
+                 kiln_scene_value_max(scene, &system->look.shadow) > 0.0f;
+    }
+    return found;
+}
+
 uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
 {
     uint32_t count = 0;
@@ -96,11 +128,7 @@ uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
         count += scene->backdrop.lights[i].shadow;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
-        const struct kiln_value3 *light = &system->look.light;
-        if (system->enabled && system->look.light_shadow &&
-            (kiln_scene_value_max(scene, &light->x) > 0.0f ||
-             kiln_scene_value_max(scene, &light->y) > 0.0f ||
-             kiln_scene_value_max(scene, &light->z) > 0.0f))
+        if (system->enabled && system->look.light_shadow && ever_shines(scene, &system->look.light))
             count += system->look.light_count;
     }
     return count;

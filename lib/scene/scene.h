@@ -522,6 +522,20 @@ static inline bool kiln_scene_stores_keys(const struct kiln_scene *scene)
  * eye and the pixels' samples have one place. */
 bool kiln_scene_view_stands(const struct kiln_scene *scene);
 
+/* Return whether the sun ever shines, whether particles ever emit light, and whether particles are
+ * smoke that throws shadows. */
+bool kiln_scene_has_sun(const struct kiln_scene *scene);
+bool kiln_scene_has_firelight(const struct kiln_scene *scene);
+bool kiln_scene_has_smoke(const struct kiln_scene *scene);
+
+/* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide
+ * (points, lines) hide nothing. */
+static inline bool kiln_system_is_smoke(const struct kiln_system *system)
+{
+    return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
+           system->look.shape == KILN_SHAPE_BILLBOARD;
+}
+
 /* Returns how many lamps, and lights of fire, may be hidden by what is in their way. */
 uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene);
 

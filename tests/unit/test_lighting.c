@@ -43,7 +43,7 @@ static void a_particle_sheds_what_it_emits(void **state)
     struct placed f = {0};
     placed_set_up(&f, FIRE, NULL);
     struct kiln_draw_light lights[KILN_MAX_FIRE_LIGHTS];
-    assert_true(kiln_firelight_exists(f.scene));
+    assert_true(kiln_scene_has_firelight(f.scene));
     assert_int_equal(gather_fire(&f, lights), 0);
 
     placed_add(&f, 0, (float3){1, 2, 3}, 1); /* half of its life has passed: the middle light */
@@ -213,13 +213,13 @@ static void only_what_covers_throws_shadows(void **state)
     struct placed f = {0};
     struct kiln_smoke_grid grid;
     placed_set_up(&f, SMOKE, NULL);
-    assert_true(kiln_smoke_exists(f.scene));
-    assert_false(kiln_firelight_exists(f.scene));
+    assert_true(kiln_scene_has_smoke(f.scene));
+    assert_false(kiln_scene_has_firelight(f.scene));
     assert_false(fill(&f, (float3){0, 1, 0}, &grid)); /* no particles yet */
     placed_tear_down(&f);
     for (size_t i = 0; i < 3; i++) {
         placed_set_up(&f, SMOKE, overrides[i]);
-        assert_false(kiln_smoke_exists(f.scene));
+        assert_false(kiln_scene_has_smoke(f.scene));
         placed_add(&f, 0, (float3){0, 0, 0}, 1);
         assert_false(fill(&f, (float3){0, 1, 0}, &grid));
         placed_tear_down(&f);

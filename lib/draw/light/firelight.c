@@ -134,15 +134,3 @@ uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_thr
     }
     return count;
 }
-
-bool kiln_firelight_exists(const struct kiln_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_value3 *light = &scene->systems[i].look.light;
-        if (scene->systems[i].enabled && (kiln_scene_value_max(scene, &light->x) > 0.0f ||
-                                          kiln_scene_value_max(scene, &light->y) > 0.0f ||
-                                          kiln_scene_value_max(scene, &light->z) > 0.0f))
-            return true;
-    }
-    return false;
-}

@@ -11,7 +11,4 @@
 uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_threads *threads,
                                struct kiln_draw_light *lights);
 
-/* Returns whether any system sheds light. */
-bool kiln_firelight_exists(const struct kiln_scene *scene);
-
 #endif

@@ -10,6 +10,7 @@
 #include "draw/light/firelight.h"
 #include "draw/light/lamps.h"
 #include "draw/light/lighting_gl.h"
+#include "draw/moment/instances.h"
 #include "shared/exact.h"
 
 enum {
@@ -47,8 +48,17 @@ static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *devi
 {
     if (!particles_count(stage) && !stage->lamp_maps)
         return true;
+    const struct kiln_lighting_textures textures = {
+        .smoke = stage->smoke,
+        .sun = stage->sun,
+        .lamps = stage->fire || stage->scene->backdrop.light_count > 0,
+        .solids = stage->solids != NULL,
+        .instances = kiln_instance_tile_edge(stage->scene) > 0,
+        .lamp_maps = stage->lamp_maps != NULL,
+        .lamp_solids = stage->lamp_solids != NULL,
+    };
     if (device)
-        stage->gl = kiln_lighting_gl_create(device);
+        stage->gl = kiln_lighting_gl_create(device, &textures);
     if (stage->smoke) {
         stage->shadow = kiln_smoke_shadow_create();
         stage->depths = malloc(((size_t)GRIDS * CELLS + COARSE) * sizeof *stage->depths);
@@ -56,14 +66,6 @@ static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *devi
     }
     return (stage->gl || !device) &&
            ((stage->shadow && stage->depths && stage->lamp_smoke) || !stage->smoke);
-}
-
-static bool sun_exists(const struct kiln_scene *scene)
-{
-    const struct kiln_value3 *color = &scene->backdrop.sun_color;
-    return kiln_scene_value_max(scene, &color->x) > 0.0f ||
-           kiln_scene_value_max(scene, &color->y) > 0.0f ||
-           kiln_scene_value_max(scene, &color->z) > 0.0f;
 }
 
 static bool create_shadows(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
@@ -110,9 +112,9 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
     const struct kiln_scene *scene = moment->scene;
     *stage = (struct kiln_lighting_stage){.scene = scene,
                                           .threads = threads,
-                                          .fire = kiln_firelight_exists(scene),
-                                          .smoke = kiln_smoke_exists(scene),
-                                          .sun = sun_exists(scene)};
+                                          .fire = kiln_scene_has_firelight(scene),
+                                          .smoke = kiln_scene_has_smoke(scene),
+                                          .sun = kiln_scene_has_sun(scene)};
     if (!create_shadows(stage, moment, error)) {
         kiln_lighting_destroy(&stage);
         return NULL;

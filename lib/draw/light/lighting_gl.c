@@ -1,5 +1,9 @@
 /* This file sends the light of a frame to textures in GL and binds them. Data that changes every
- * frame is sent once a frame, however many stages bind it. */
+ * frame is sent once a frame, however many stages bind it.
+ *
+ * Textures that a scene may need are created with the stage, even if its first frames have no use
+ * for them: llvmpipe compiles a program for the formats of its textures, and compiles it again when
+ * a texture appears. */
 #include "draw/light/lighting_gl.h"
 
 #include <stdlib.h>
@@ -52,14 +56,6 @@ struct kiln_lighting_gl {
     uint32_t texels[KILN_LAMP_EDGE * KILN_LAMP_EDGE * KILN_LAMP_SOLID_TEXEL];
 };
 
-struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
-{
-    struct kiln_lighting_gl *gl = calloc(1, sizeof *gl);
-    if (gl)
-        gl->device = device;
-    return gl;
-}
-
 void kiln_lighting_gl_destroy(struct kiln_lighting_gl **gl)
 {
     if (!*gl)
@@ -97,59 +93,81 @@ static bool make(struct kiln_lighting_gl *gl, enum texture which, GLint filter)
     return true;
 }
 
-static void send_grid(struct kiln_lighting_gl *gl, enum texture which, const float *depth)
+static void make_grid(struct kiln_lighting_gl *gl, enum texture which)
 {
     enum { EDGE = KILN_SMOKE_GRID };
     if (make(gl, which, GL_LINEAR))
         glTexImage3D(GL_TEXTURE_3D, 0, GL_R32F, EDGE, EDGE, EDGE, 0, GL_RED, GL_FLOAT, NULL);
+}
+
+static void send_grid(struct kiln_lighting_gl *gl, enum texture which, const float *depth)
+{
+    enum { EDGE = KILN_SMOKE_GRID };
+    make_grid(gl, which);
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, EDGE, EDGE, EDGE, GL_RED, GL_FLOAT, depth);
     gl->device->traffic.to_device += sizeof(float) * EDGE * EDGE * EDGE;
+}
+
+static void make_bins(struct kiln_lighting_gl *gl)
+{
+    if (make(gl, SOLID_BINS, GL_NEAREST))
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, KILN_SOLID_BINS, KILN_SOLID_BINS, 0,
+                     GL_RG_INTEGER, GL_UNSIGNED_INT, NULL);
+}
+
+static void make_list(struct kiln_lighting_gl *gl, enum texture which, size_t rows)
+{
+    make(gl, which, GL_NEAREST);
+    if (gl->solid_rows != rows)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SOLID_ROW, (GLsizei)rows, 0, GL_RGBA,
+                     GL_FLOAT, NULL);
 }
 
 /* Sends a list of float4 in rows; returns how many rows it has. */
 static size_t send_list(struct kiln_lighting_gl *gl, enum texture which,
                         const struct kiln_solid_bins *solids, const float4 *list)
 {
-    make(gl, which, GL_NEAREST);
-    if (gl->solid_rows != solids->rows)
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, KILN_SOLID_ROW, (GLsizei)solids->rows, 0,
-                     GL_RGBA, GL_FLOAT, NULL);
+    make_list(gl, which, solids->rows);
     size_t rows = (solids->entry_count + KILN_SOLID_ROW - 1) / KILN_SOLID_ROW;
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_SOLID_ROW, (GLsizei)rows, GL_RGBA, GL_FLOAT, list);
     return rows;
+}
+
+static void make_silhouettes(struct kiln_lighting_gl *gl)
+{
+    if (!make(gl, SILHOUETTES, GL_NEAREST))
+        return;
+    for (GLint level = 0; level < KILN_INSTANCE_LEVELS; level++) {
+        const GLsizei edge = KILN_INSTANCE_ATLAS >> level;
+        glTexImage2D(GL_TEXTURE_2D, level, GL_R32F, edge, edge, 0, GL_RED, GL_FLOAT, NULL);
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, KILN_INSTANCE_LEVELS - 1);
 }
 
 /* Sends the rows of tiles that are in use. */
 static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_solid_bins *solids)
 {
     const float *texels = solids->silhouettes;
-    const bool is_new = make(gl, SILHOUETTES, GL_NEAREST);
     float last = 0.0f;
+    make_silhouettes(gl);
     for (size_t i = 0; i < solids->entry_count; i++) {
         const float4 tile = solids->tiles[i];
         last = tile.y + tile.w > last ? tile.y + tile.w : last;
     }
     for (GLint level = 0; level < KILN_INSTANCE_LEVELS; level++) {
         const GLsizei edge = KILN_INSTANCE_ATLAS >> level, rows = (GLsizei)last >> level;
-        if (is_new)
-            glTexImage2D(GL_TEXTURE_2D, level, GL_R32F, edge, edge, 0, GL_RED, GL_FLOAT, NULL);
         if (rows > 0)
             glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, edge, rows, GL_RED, GL_FLOAT, texels);
         texels += (size_t)edge * (size_t)edge;
         gl->device->traffic.to_device += sizeof(float) * (size_t)edge * (size_t)rows;
     }
-    if (!is_new)
-        return;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, KILN_INSTANCE_LEVELS - 1);
 }
 
 static void send_solids(struct kiln_lighting_gl *gl, const struct kiln_solid_bins *solids)
 {
     GLsizei edge = (GLsizei)solids->edge;
-    if (make(gl, SOLID_BINS, GL_NEAREST))
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, KILN_SOLID_BINS, KILN_SOLID_BINS, 0,
-                     GL_RG_INTEGER, GL_UNSIGNED_INT, NULL);
+    make_bins(gl);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, edge, edge, GL_RG_INTEGER, GL_UNSIGNED_INT,
                     solids->bins);
     size_t rows = send_list(gl, SOLID_LIST, solids, solids->list);
@@ -175,56 +193,52 @@ static void send_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *
     gl->device->traffic.to_device += sizeof(float) * KILN_SUN_SHADE_ROW * rows;
 }
 
-/* Binds the texture of an array of faces. Texels beside a face count as empty. */
-static void make_faces(struct kiln_lighting_gl *gl, enum texture which)
+/* Binds the texture of an array with six faces for each lamp, and gives it storage where it has
+ * room for fewer lamps. Texels beside a face count as empty. */
+static void make_faces(struct kiln_lighting_gl *gl, enum texture which, uint32_t lamps)
 {
     const GLenum target = GL_TEXTURE_2D_ARRAY;
-    if (!make(gl, which, GL_LINEAR))
-        return;
-    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, KILN_LAMP_LEVELS - 1);
+    const bool maps = which == LAMP_MAPS;
+    uint32_t *room = maps ? &gl->lamp_map_count : &gl->lamp_solid_count;
+    if (make(gl, which, GL_LINEAR)) {
+        glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+        glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+        glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, KILN_LAMP_LEVELS - 1);
+    }
+    for (GLint level = 0; *room < lamps && level < KILN_LAMP_LEVELS; level++)
+        glTexImage3D(target, level, maps ? GL_RG16 : GL_RGBA16, KILN_LAMP_EDGE >> level,
+                     KILN_LAMP_EDGE >> level, (GLsizei)(lamps * KILN_LAMP_FACES), 0,
+                     maps ? GL_RG : GL_RGBA, GL_UNSIGNED_SHORT, NULL);
+    *room = *room < lamps ? lamps : *room;
 }
 
 /* Sends the levels of each face. */
 static void send_lamp_maps(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
 {
-    const GLenum target = GL_TEXTURE_2D_ARRAY;
     const GLsizei layers = (GLsizei)(lighting->lamp_map_count * KILN_LAMP_FACES);
-    make_faces(gl, LAMP_MAPS);
+    make_faces(gl, LAMP_MAPS, lighting->lamp_map_count);
     for (GLint level = 0; level < KILN_LAMP_LEVELS; level++) {
         const GLsizei edge = KILN_LAMP_EDGE >> level;
-        if (gl->lamp_map_count < lighting->lamp_map_count)
-            glTexImage3D(target, level, GL_RG16, edge, edge, layers, 0, GL_RG, GL_UNSIGNED_SHORT,
-                         NULL);
         for (GLsizei layer = 0; layer < layers; layer++) {
             kiln_shadow_unpair(lighting->lamp_maps + (size_t)layer * KILN_LAMP_WORDS,
                                KILN_LAMP_EDGE, 1, (uint32_t)level, gl->texels);
-            glTexSubImage3D(target, level, 0, 0, layer, edge, edge, 1, GL_RG, GL_UNSIGNED_SHORT,
-                            gl->texels);
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, edge, edge, 1, GL_RG,
+                            GL_UNSIGNED_SHORT, gl->texels);
         }
         gl->device->traffic.to_device +=
             sizeof *gl->texels * (size_t)edge * (size_t)edge * (size_t)layers;
     }
-    if (gl->lamp_map_count < lighting->lamp_map_count)
-        gl->lamp_map_count = lighting->lamp_map_count;
     gl->lamp_map_changes = lighting->lamp_map_changes;
 }
 
 /* Sends the levels of the faces that were drawn since the texture got them. */
 static void send_lamp_solids(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
 {
-    const GLenum target = GL_TEXTURE_2D_ARRAY;
     const struct kiln_lamp_solid_maps *maps = &lighting->lamp_solids;
     const GLsizei layers = (GLsizei)(maps->count * KILN_LAMP_FACES);
     const bool all = gl->lamp_solid_count < maps->count;
-    make_faces(gl, LAMP_SOLIDS);
-    for (GLint level = 0; all && level < KILN_LAMP_LEVELS; level++)
-        glTexImage3D(target, level, GL_RGBA16, KILN_LAMP_EDGE >> level, KILN_LAMP_EDGE >> level,
-                     layers, 0, GL_RGBA, GL_UNSIGNED_SHORT, NULL);
-    if (all)
-        gl->lamp_solid_count = maps->count;
+    make_faces(gl, LAMP_SOLIDS, maps->count);
     for (GLsizei layer = 0; layer < layers; layer++) {
         if (!all && gl->lamp_solid_changes[layer] == maps->changes[layer])
             continue;
@@ -233,7 +247,7 @@ static void send_lamp_solids(struct kiln_lighting_gl *gl, const struct kiln_ligh
         for (uint32_t level = 0; level < KILN_LAMP_LEVELS; level++) {
             const GLsizei edge = KILN_LAMP_EDGE >> level;
             kiln_shadow_unpair(face, KILN_LAMP_EDGE, KILN_LAMP_SOLID_TEXEL, level, gl->texels);
-            glTexSubImage3D(target, (GLint)level, 0, 0, layer, edge, edge, 1, GL_RGBA,
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, (GLint)level, 0, 0, layer, edge, edge, 1, GL_RGBA,
                             GL_UNSIGNED_SHORT, gl->texels);
             gl->device->traffic.to_device +=
                 sizeof *face * KILN_LAMP_SOLID_TEXEL * (size_t)edge * (size_t)edge;
@@ -241,19 +255,23 @@ static void send_lamp_solids(struct kiln_lighting_gl *gl, const struct kiln_ligh
     }
 }
 
+static void make_lamp_smoke(struct kiln_lighting_gl *gl, uint32_t lamps)
+{
+    make(gl, LAMP_SMOKE, GL_LINEAR);
+    if (gl->lamp_smoke_count >= lamps)
+        return;
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32F, KILN_LAMP_SMOKE_WIDTH, KILN_LAMP_SMOKE_HEIGHT,
+                 (GLsizei)(lamps * KILN_LAMP_SMOKE_LAYERS), 0, GL_RED, GL_FLOAT, NULL);
+    gl->lamp_smoke_count = lamps;
+}
+
 static void send_lamp_smoke(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
 {
-    const GLenum target = GL_TEXTURE_2D_ARRAY;
     const uint32_t count = lighting->lamp_smoke_count;
-    const GLsizei layers = (GLsizei)(count * KILN_LAMP_SMOKE_LAYERS);
-    make(gl, LAMP_SMOKE, GL_LINEAR);
-    if (gl->lamp_smoke_count < count) {
-        glTexImage3D(target, 0, GL_R32F, KILN_LAMP_SMOKE_WIDTH, KILN_LAMP_SMOKE_HEIGHT, layers, 0,
-                     GL_RED, GL_FLOAT, NULL);
-        gl->lamp_smoke_count = count;
-    }
-    glTexSubImage3D(target, 0, 0, 0, 0, KILN_LAMP_SMOKE_WIDTH, KILN_LAMP_SMOKE_HEIGHT, layers,
-                    GL_RED, GL_FLOAT, lighting->lamp_smoke);
+    make_lamp_smoke(gl, count);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, KILN_LAMP_SMOKE_WIDTH, KILN_LAMP_SMOKE_HEIGHT,
+                    (GLsizei)(count * KILN_LAMP_SMOKE_LAYERS), GL_RED, GL_FLOAT,
+                    lighting->lamp_smoke);
     gl->device->traffic.to_device += sizeof(float) * KILN_LAMP_SMOKE_MAP * count;
 }
 
@@ -274,6 +292,36 @@ static void send_lamp_shade(struct kiln_lighting_gl *gl, const struct kiln_light
     glTexSubImage3D(target, 0, 0, 0, 0, KILN_SUN_SHADE_ROW, rows, planes, GL_RED_INTEGER,
                     GL_UNSIGNED_INT, lighting->lamplit);
     gl->device->traffic.to_device += sizeof(uint32_t) * words;
+}
+
+struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device,
+                                                 const struct kiln_lighting_textures *needed)
+{
+    struct kiln_lighting_gl *gl = calloc(1, sizeof *gl);
+    if (!gl)
+        return NULL;
+    gl->device = device;
+    if (needed->smoke)
+        make_grid(gl, SMOKE_SKY);
+    if (needed->smoke && needed->sun)
+        make_grid(gl, SMOKE_SUN);
+    if (needed->smoke && needed->lamps)
+        make_lamp_smoke(gl, 1);
+    if (needed->solids) {
+        make_bins(gl);
+        make_list(gl, SOLID_LIST, 1);
+    }
+    if (needed->instances) {
+        make_list(gl, SOLID_TILES, 1);
+        make_silhouettes(gl);
+    }
+    gl->solid_rows = needed->solids;
+    if (needed->lamp_maps)
+        make_faces(gl, LAMP_MAPS, 1);
+    if (needed->lamp_solids)
+        make_faces(gl, LAMP_SOLIDS, 1);
+    glActiveTexture(GL_TEXTURE0);
+    return gl;
 }
 
 bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error)

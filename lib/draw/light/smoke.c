@@ -48,19 +48,11 @@ static void gather_slots(void *context, size_t begin, size_t end, uint32_t worke
     job->counts[chunk] = count;
 }
 
-/* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide
- * (points, lines) hide nothing. */
-static bool is_smoke(const struct kiln_system *system)
-{
-    return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
-           system->look.shape == KILN_SHAPE_BILLBOARD;
-}
-
 /* Returns the strength of a system's shadow; 0 if it throws none. */
 static float shadow_of(const struct kiln_moment *moment, uint32_t system)
 {
     const struct kiln_system *s = &moment->scene->systems[system];
-    if (!is_smoke(s))
+    if (!kiln_system_is_smoke(s))
         return 0.0f;
     return kiln_scene_value(moment->scene, &s->look.shadow, moment->view.clock.x);
 }
@@ -121,14 +113,4 @@ void kiln_smoke_finish(struct kiln_smoke *smoke)
     free(smoke->puffs);
     free(smoke->counts);
     *smoke = (struct kiln_smoke){.puffs = NULL};
-}
-
-bool kiln_smoke_exists(const struct kiln_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        if (is_smoke(system) && kiln_scene_value_max(scene, &system->look.shadow) > 0.0f)
-            return true;
-    }
-    return false;
 }

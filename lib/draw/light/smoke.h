@@ -32,7 +32,4 @@ bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *momen
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_smoke_finish(struct kiln_smoke *smoke);
 
-/* Returns whether any system throws a shadow. */
-bool kiln_smoke_exists(const struct kiln_scene *scene);
-
 #endif
