@@ -27,8 +27,8 @@ void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer);
 bool kiln_framebuffer_bind(struct kiln_framebuffer *framebuffer, struct kiln_error *error);
 
 /* Draws one triangle over the whole bound framebuffer with the current program, whose vertex shader
- * must be gpu/framebuffer_fill.vert. vertex_array: any vertex array, since the shader reads no
- * attributes. */
+ * must be gpu/framebuffer_fill.vert, or make that triangle of vertices 0 to 2. vertex_array: any
+ * vertex array, since the shader reads no attributes. */
 void kiln_framebuffer_fill(GLuint vertex_array);
 
 #endif

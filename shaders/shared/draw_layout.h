@@ -49,6 +49,9 @@
 /* Edge in pixels of the tiles in which the backdrop is antialiased. */
 #define KILN_EDGE_TILE 8
 
+/* The location of the uniform of the backdrop's program that says which of its passes runs. */
+#define BACKDROP_AT_EDGES 0
+
 /* Edges are found by a number of each pixel: four times that of the surface at its centre, plus the
  * part of the light that it gets, -1 to 1; with KILN_EDGE_MARK added where its samples show that
  * it is at an edge inside a mesh. Marks aside, the threshold is the greatest difference between
@@ -126,6 +129,14 @@ struct kiln_view {
 #define KILN_LAMP_POINT     0.0f
 #define KILN_LAMP_SPOT      1.0f
 #define KILN_LAMP_RECTANGLE 2.0f
+
+/* Returns whether a lamp is a rectangle. A shader defines NO_RECTANGLES where its scene has none.
+ */
+#ifdef NO_RECTANGLES
+#define LAMP_IS_RECTANGLE(lamp) false
+#else
+#define LAMP_IS_RECTANGLE(lamp) ((lamp).facing.w == KILN_LAMP_RECTANGLE)
+#endif
 
 /* Bit of `casters.y` of a lamp at which the number of its maps of solids begins. */
 #define KILN_LAMP_SOLID_SHIFT 8

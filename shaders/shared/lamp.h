@@ -38,7 +38,7 @@ REAL_FN real lamp_cone(S(kiln_draw_light) lamp, real3 towards)
  * A rectangle seen at an angle looks smaller, by the cosine. */
 REAL_FN real lamp_share(S(kiln_draw_light) lamp, real3 towards)
 {
-    if (lamp.facing.w == KILN_LAMP_RECTANGLE)
+    if (LAMP_IS_RECTANGLE(lamp))
         return real_max(lamp_cosine(lamp, towards), real_all(0.0f));
     return lamp_cone(lamp, towards);
 }
@@ -127,7 +127,7 @@ REAL_FN real rectangle_irradiance(S(kiln_draw_light) lamp, real3 towards, real3 
 REAL_FN real lamp_irradiance(S(kiln_draw_light) lamp, real3 towards, real3 normal)
 {
     float radius2 = lamp.position_radius2.w;
-    if (lamp.facing.w == KILN_LAMP_RECTANGLE)
+    if (LAMP_IS_RECTANGLE(lamp))
         return rectangle_irradiance(lamp, towards, normal) * (1.0f / radius2);
     real along = real3_dot(normal, towards), d2 = real3_dot(towards, towards);
     real part = along * real_rsqrt(real_max(d2, real_all(1e-9f))) * LAMP_PI / (d2 + radius2);

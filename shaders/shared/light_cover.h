@@ -85,7 +85,7 @@ REAL_FN S(light_way) lamp_way_of(real3 towards, float radius, real lit)
 REAL_FN S(light_way) lamp_way_to(S(kiln_draw_light) lamp, real3 origin, real3 normal, real lit)
 {
     real3 towards = real3_towards(lamp.position_radius2, origin);
-    if (lamp.facing.w != KILN_LAMP_RECTANGLE)
+    if (!LAMP_IS_RECTANGLE(lamp))
         return lamp_way_of(towards, lamp.color.w, lit);
     real lift = real_max(lamp.color.w - real3_dot(normal, towards), real_all(0.0f));
     S(light_way) way = lamp_way_of(real3_add_scaled(towards, normal, lift), lamp.color.w, lit);

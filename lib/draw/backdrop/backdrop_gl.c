@@ -1,5 +1,10 @@
 /* This file draws the backdrop in GL: it uploads uniform blocks, draws the meshes, then runs a
- * full-screen pass and a second pass over the tiles that contain edges. */
+ * full-screen pass and a second pass over the tiles that contain edges.
+ *
+ * Both passes run one program with targets and textures of the same formats, since llvmpipe
+ * compiles a program for each set of formats and takes more than a second for this one. So each
+ * pass has an image of surfaces that it draws into, and reads that of the other pass: the first
+ * pass makes no use of what it reads, and nobody reads what the second pass draws. */
 #include "draw/backdrop/backdrop_gl.h"
 
 #include <stdlib.h>
@@ -11,13 +16,15 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 
+enum { PASS_CENTERS, PASS_EDGES, PASSES };
+
 struct kiln_backdrop_gl {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_image *color, *depth;
-    struct kiln_image surfaces; /* the surface at each pixel's centre */
-    GLuint cast, antialias;     /* programs */
-    struct kiln_framebuffer cast_framebuffer, color_framebuffer;
+    struct kiln_image surfaces[PASSES]; /* of the first pass: the surface at each pixel's centre */
+    struct kiln_framebuffer framebuffers[PASSES];
+    GLuint program;
     GLuint vertex_array;
     struct kiln_draw_blocks blocks;
     struct kiln_buffer shapes_buffer;
@@ -25,21 +32,16 @@ struct kiln_backdrop_gl {
     struct kiln_texture floor_image, sky_image;
 };
 
-static bool create_programs(struct kiln_backdrop_gl *stage, struct kiln_error *error)
+static bool create_program(struct kiln_backdrop_gl *stage, struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(stage->scene);
     char defines[KILN_SHAPE_DEFINES];
-    struct kiln_program_params params = {.vertex = "gpu/framebuffer_fill.vert",
-                                         .fragment = "draw/backdrop/backdrop.frag",
-                                         .defines = defines};
-    kiln_shape_defines(&features, 1, defines);
-    stage->cast = kiln_program_create(stage->device, &params, error);
-    if (!stage->cast)
-        return false;
-    params.vertex = "draw/backdrop/backdrop_edges.vert";
-    kiln_shape_defines(&features, KILN_EDGE_SAMPLES, defines);
-    stage->antialias = kiln_program_create(stage->device, &params, error);
-    return stage->antialias != 0;
+    kiln_shape_defines(&features, defines);
+    const struct kiln_program_params params = {.vertex = "draw/backdrop/backdrop.vert",
+                                               .fragment = "draw/backdrop/backdrop.frag",
+                                               .defines = defines};
+    stage->program = kiln_program_create(stage->device, &params, error);
+    return stage->program != 0;
 }
 
 static bool load_pictures(struct kiln_backdrop_gl *stage, struct kiln_error *error)
@@ -56,11 +58,15 @@ static bool load_pictures(struct kiln_backdrop_gl *stage, struct kiln_error *err
 
 static bool create_targets(struct kiln_backdrop_gl *stage, struct kiln_error *error)
 {
-    kiln_image_init(&stage->surfaces, stage->device, stage->color->width, stage->color->height,
-                    GL_R32F, "backdrop surfaces");
-    struct kiln_image *targets[] = {stage->color, stage->depth, &stage->surfaces};
-    return kiln_framebuffer_init(&stage->cast_framebuffer, stage->device, targets, 3, error) &&
-           kiln_framebuffer_init(&stage->color_framebuffer, stage->device, targets, 1, error);
+    static const char *const labels[PASSES] = {"backdrop surfaces", "backdrop surfaces of edges"};
+    for (int pass = 0; pass < PASSES; pass++) {
+        struct kiln_image *targets[] = {stage->color, stage->depth, &stage->surfaces[pass]};
+        kiln_image_init(&stage->surfaces[pass], stage->device, stage->color->width,
+                        stage->color->height, GL_R32F, labels[pass]);
+        if (!kiln_framebuffer_init(&stage->framebuffers[pass], stage->device, targets, 3, error))
+            return false;
+    }
+    return true;
 }
 
 struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
@@ -79,7 +85,7 @@ struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
     stage->color = params->color;
     stage->depth = params->depth;
     stage->meshes = kiln_meshes_gl_create(device, scene, meshes, error);
-    if (!stage->meshes || !create_programs(stage, error) || !create_targets(stage, error) ||
+    if (!stage->meshes || !create_program(stage, error) || !create_targets(stage, error) ||
         !load_pictures(stage, error)) {
         kiln_backdrop_gl_destroy(&stage);
         return NULL;
@@ -95,11 +101,11 @@ void kiln_backdrop_gl_destroy(struct kiln_backdrop_gl **gl)
     struct kiln_backdrop_gl *s = *gl;
     if (!s)
         return;
-    glDeleteProgram(s->cast); /* 0 is ignored */
-    glDeleteProgram(s->antialias);
-    kiln_framebuffer_finish(&s->cast_framebuffer);
-    kiln_framebuffer_finish(&s->color_framebuffer);
-    kiln_image_finish(&s->surfaces);
+    glDeleteProgram(s->program); /* 0 is ignored */
+    for (int pass = 0; pass < PASSES; pass++) {
+        kiln_framebuffer_finish(&s->framebuffers[pass]);
+        kiln_image_finish(&s->surfaces[pass]);
+    }
     glDeleteVertexArrays(1, &s->vertex_array);
     kiln_draw_blocks_finish(&s->blocks);
     kiln_buffer_finish(&s->shapes_buffer);
@@ -126,25 +132,35 @@ static void bind_picture(GLenum unit, const struct kiln_texture *texture)
     glActiveTexture(GL_TEXTURE0);
 }
 
+/* Binds the targets and textures of a pass, and its program. */
+static bool begin_pass(struct kiln_backdrop_gl *stage, int pass, struct kiln_error *error)
+{
+    const int other = PASS_EDGES - pass;
+    const GLuint surfaces = kiln_image_gl(&stage->surfaces[other], KILN_READ, error);
+    if (!surfaces || !kiln_framebuffer_bind(&stage->framebuffers[pass], error))
+        return false;
+    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SURFACES);
+    glBindTexture(GL_TEXTURE_2D, surfaces);
+    glActiveTexture(GL_TEXTURE0);
+    glUseProgram(stage->program);
+    glUniform1i(BACKDROP_AT_EDGES, pass == PASS_EDGES);
+    return true;
+}
+
 static bool cast(struct kiln_backdrop_gl *stage, const struct kiln_draw_shapes *shapes,
                  struct kiln_error *error)
 {
     if (!kiln_meshes_gl_draw(stage->meshes, shapes, error))
         return false;
     bind_picture(KILN_UNIT_FLOOR, &stage->floor_image);
-    if (!kiln_framebuffer_bind(&stage->cast_framebuffer, error))
+    if (!begin_pass(stage, PASS_CENTERS, error))
         return false;
     glDisable(GL_BLEND);
-    glUseProgram(stage->cast);
     kiln_framebuffer_fill(stage->vertex_array);
 
-    GLuint surfaces = kiln_image_gl(&stage->surfaces, KILN_READ, error);
-    if (!surfaces || !kiln_framebuffer_bind(&stage->color_framebuffer, error))
+    if (!begin_pass(stage, PASS_EDGES, error))
         return false;
     uint32_t width = stage->color->width, height = stage->color->height;
-    glUseProgram(stage->antialias);
-    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SURFACES);
-    glBindTexture(GL_TEXTURE_2D, surfaces);
     glEnable(GL_PROGRAM_POINT_SIZE);
     uint32_t columns = (width + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
     uint32_t rows = (height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;

@@ -53,7 +53,13 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         .floor_image = backdrop->floor_image != NULL,
         .floor_gloss = kiln_scene_value_max(scene, &backdrop->floor_gloss) > 0.0f,
         .sky_image = backdrop->sky_image != NULL,
+        .sun = kiln_scene_has_sun(scene),
+        .smoke = kiln_scene_has_smoke(scene),
+        .lamps = backdrop->light_count > 0 || kiln_scene_has_firelight(scene),
+        .lamp_shadows = kiln_scene_shadow_lights(scene) > 0,
     };
+    for (uint32_t i = 0; i < backdrop->light_count; i++)
+        features.rectangles |= backdrop->lights[i].kind == KILN_LIGHT_RECTANGLE;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
         if (shape_of(object) < SHAPE_KINDS)
@@ -69,22 +75,25 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     return features;
 }
 
-void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
-                        char out[KILN_SHAPE_DEFINES])
+void kiln_shape_defines(const struct kiln_shape_features *features, char out[KILN_SHAPE_DEFINES])
 {
     static const char *const rows[SHAPE_KINDS] = {
 #define ROW_OF(kind, name) [SHAPE_##kind] = " ROW(" #kind ", " #name ")",
         KILN_SHAPES(ROW_OF)
 #undef ROW_OF
     };
-    int length = snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s", samples,
-                          features->meshes ? "#define MESHES 1\n" : "",
-                          features->paint ? "#define PAINT 1\n" : "",
-                          features->solids ? "#define SOLIDS 1\n" : "",
-                          features->instances ? "#define INSTANCES 1\n" : "",
-                          features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
-                          features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
-                          features->sky_image ? "#define SKY_IMAGE 1\n" : "");
+    int length = snprintf(
+        out, KILN_SHAPE_DEFINES, "%s%s%s%s%s%s%s%s%s%s%s%s",
+        features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
+        features->solids ? "#define SOLIDS 1\n" : "",
+        features->instances ? "#define INSTANCES 1\n" : "",
+        features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
+        features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
+        features->sky_image ? "#define SKY_IMAGE 1\n" : "",
+        features->sun ? "" : "#define NO_SUN 1\n", features->smoke ? "" : "#define NO_SMOKE 1\n",
+        features->lamps ? "" : "#define NO_LAMPS 1\n",
+        features->lamp_shadows ? "" : "#define NO_LAMP_SHADOWS 1\n",
+        features->rectangles ? "" : "#define NO_RECTANGLES 1\n");
     length +=
         snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "#define KILN_SHAPES(ROW)");
     for (uint32_t kind = 0; kind < SHAPE_KINDS; kind++)

@@ -10,19 +10,19 @@
 /* Holds the features of the shaders that a scene needs; each set of features is a shader variant.
  * kinds: a bit for each kind of shape, SHAPE_*; solids: there are opaque particles, which throw
  * shadows; instances: some particles are meshes with silhouette tiles
- * (lib/draw/light/instance_tiles.h). */
+ * (lib/draw/light/instance_tiles.h); smoke: it throws shadows; lamps: there are lamps or light of
+ * fire; lamp_shadows: objects may hide some of them; rectangles: some are rectangles. */
 struct kiln_shape_features {
     uint32_t kinds;
     bool meshes, paint, solids, instances, floor_image, floor_gloss, sky_image;
+    bool sun, smoke, lamps, lamp_shadows, rectangles;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-#define KILN_SHAPE_DEFINES 400 /* bytes of the text of kiln_shape_defines */
+#define KILN_SHAPE_DEFINES 600 /* bytes of the text of kiln_shape_defines */
 
-/* Writes the "#define" lines of the variant, as kiln_program_params takes them. samples: rays a
- * pixel. */
-void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
-                        char out[KILN_SHAPE_DEFINES]);
+/* Writes the "#define" lines of the variant, as kiln_program_params takes them. */
+void kiln_shape_defines(const struct kiln_shape_features *features, char out[KILN_SHAPE_DEFINES]);
 
 /* Returns the unit vector along v, or up where v has no length. */
 float3 kiln_direction(float3 v);

@@ -22,7 +22,7 @@ static bool create_program(struct kiln_instances_gl *m, struct kiln_error *error
 {
     const struct kiln_shape_features features = kiln_shape_features(m->scene);
     char shapes[KILN_SHAPE_DEFINES], defines[KILN_SHAPE_DEFINES + 64];
-    kiln_shape_defines(&features, 1, shapes);
+    kiln_shape_defines(&features, shapes);
     snprintf(defines, sizeof defines, "%s%s", shapes,
              kiln_scene_spins(m->scene) ? "#define SPINS 1\n" : "");
     m->program =

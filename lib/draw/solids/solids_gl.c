@@ -19,7 +19,7 @@ enum { SAMPLES = 4 }; /* every OpenGL 4.3 has 4; the shaders assume 4 */
 struct kiln_solids_gl {
     struct kiln_device *device;
     struct kiln_solids_targets targets;
-    GLuint cast, resolve;             /* programs */
+    GLuint cast, resolve;             /* programs; cast: 0: no particle is a sphere */
     struct kiln_instances_gl *meshes; /* NULL: no particle is a mesh */
     GLuint samples[3];                /* multisampled textures: colour, bloom, depth */
     GLuint framebuffer;               /* the framebuffer of `samples` */
@@ -27,12 +27,22 @@ struct kiln_solids_gl {
     GLuint vertex_array;
 };
 
+static bool has_spheres(const struct kiln_scene *scene)
+{
+    bool found = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        found |= system->enabled && system->look.shape == KILN_SHAPE_SPHERE;
+    }
+    return found;
+}
+
 static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scene *scene,
                             struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(scene);
     char shapes[KILN_SHAPE_DEFINES], defines[KILN_SHAPE_DEFINES + 64];
-    kiln_shape_defines(&features, 1, shapes);
+    kiln_shape_defines(&features, shapes);
     snprintf(defines, sizeof defines, "%s%s%s", shapes,
              kiln_looks_patterned(scene) ? "#define PATTERN 1\n" : "",
              kiln_scene_spins(scene) ? "#define SPINS 1\n" : "");
@@ -42,9 +52,11 @@ static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scen
                                              .defines = defines};
     const struct kiln_program_params resolve = {.vertex = "gpu/framebuffer_fill.vert",
                                                 .fragment = "draw/solids/solids_resolve.frag"};
-    stage->cast = kiln_program_create(stage->device, &cast, error);
-    if (!stage->cast)
-        return false;
+    if (has_spheres(scene)) {
+        stage->cast = kiln_program_create(stage->device, &cast, error);
+        if (!stage->cast)
+            return false;
+    }
     stage->resolve = kiln_program_create(stage->device, &resolve, error);
     return stage->resolve != 0;
 }
@@ -136,11 +148,13 @@ static bool cast(struct kiln_solids_gl *stage, uint32_t count, struct kiln_error
     glClearBufferfv(GL_COLOR, 0, transparent);
     glClearBufferfv(GL_COLOR, 1, transparent);
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    glUseProgram(stage->cast);
     glBindVertexArray(stage->vertex_array);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)count);
+    if (stage->cast) {
+        glUseProgram(stage->cast);
+        glDrawArrays(GL_POINTS, 0, (GLsizei)count);
+    }
     bool ok = !stage->meshes || kiln_instances_gl_draw(stage->meshes, count, error);
     glDepthFunc(GL_LESS);
     glDisable(GL_DEPTH_TEST);

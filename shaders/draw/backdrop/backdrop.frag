@@ -5,22 +5,24 @@
  * INSTANCES of meshes, PAINT on meshes, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE.
  *
  * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
- * each pixel and notes which surface it hits. The second casts SAMPLES rays more a pixel at edges,
- * which are where neighbouring pixels hit different surfaces: backdrop_edges.vert finds the tiles
- * that have edges, this shader their pixels. Those rays of a pixel that hit one smooth piece of
- * surface share a colour, unless a shadow parts the pixel. */
-// variant: SAMPLES=1 KILN_SHAPES(ROW)=
-// variant: SAMPLES=4 KILN_SHAPES(ROW)=
-// variant: SAMPLES=1 KILN_SHAPES(ROW)=ROW(BOX,box)
-// variant: SAMPLES=4 KILN_SHAPES(ROW)=ROW(CYLINDER,cylinder)ROW(PLANE,plane)
-// variant: SAMPLES=1 KILN_SHAPES(ROW)=ROW(CAPSULE,capsule)
-// variant: SAMPLES=4
-// variant: SAMPLES=1 MESHES=1
-// variant: SAMPLES=1 MESHES=1 PAINT=1
-// variant: SAMPLES=1 SOLIDS=1
-// variant: SAMPLES=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1
-// variant: SAMPLES=1 FLOOR_GLOSS=1
-// variant: SAMPLES=4 MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1
+ * each pixel and notes which surface it hits. The second, with at_edges, casts SAMPLES rays more a
+ * pixel at edges, which are where neighbouring pixels hit different surfaces: backdrop.vert finds
+ * the tiles that have edges, this shader their pixels. Those rays of a pixel that hit one smooth
+ * piece of surface share a colour, unless a shadow parts the pixel. Both passes are one program,
+ * since most of the time of a first frame is the compiler's. */
+// variant: KILN_SHAPES(ROW)=
+// variant: KILN_SHAPES(ROW)=ROW(BOX,box)
+// variant: KILN_SHAPES(ROW)=ROW(CYLINDER,cylinder)ROW(PLANE,plane)
+// variant: KILN_SHAPES(ROW)=ROW(CAPSULE,capsule)
+// variant:
+// variant: MESHES=1
+// variant: MESHES=1 PAINT=1
+// variant: SOLIDS=1
+// variant: MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1
+// variant: FLOOR_GLOSS=1
+// variant: FLOOR_GLOSS=1 NO_SMOKE=1 NO_RECTANGLES=1 NO_LAMP_SHADOWS=1
+// variant: SOLIDS=1 MESHES=1 NO_SUN=1 NO_SMOKE=1 NO_LAMPS=1 NO_LAMP_SHADOWS=1 NO_RECTANGLES=1
+// variant: MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 
@@ -28,12 +30,14 @@ layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
 
+layout(location = BACKDROP_AT_EDGES) uniform bool at_edges;
+
 layout(location = 0) out vec4 out_color;
-#if SAMPLES == 1
 layout(location = 1) out float out_depth;
 layout(location = 2) out float out_surface; /* a number that differs between the two sides of an
                                              * edge */
-#endif
+
+const int SAMPLES = KILN_EDGE_SAMPLES;
 
 #include "draw/backdrop/surface.glsl"
 #include "shared/floor.h"
@@ -92,15 +96,6 @@ hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
     return nearest;
 }
 
-#if SAMPLES == 1
-
-bool needs_light(int ray, hit h, vec3 point)
-{
-    return true;
-}
-
-#else
-
 /* Rays of the pixel: 0: that through its centre; then its samples. The piece of surface that each
  * hits has the number of the first ray that hits it; where the pixel is not lit evenly, each sample
  * has a piece of its own. */
@@ -118,8 +113,8 @@ bool share_piece(hit a, vec3 at, hit b, vec3 other)
     return a.surface == b.surface && (a.surface < 0 || bends_little);
 }
 
-/* Notes what a ray hits, and returns whether light must be computed there. The centre needs it only
- * for samples on the same piece. */
+/* Notes what a ray hits, and returns whether light must be computed there. At edges, the centre needs
+ * it only for samples on the same piece. */
 bool needs_light(int ray, hit h, vec3 point)
 {
     ray_hits[ray] = h;
@@ -130,15 +125,12 @@ bool needs_light(int ray, hit h, vec3 point)
         ray_pieces[ray] = same ? ray_pieces[before] : ray_pieces[ray];
     }
     ray_pieces[ray] = lit_evenly ? ray_pieces[ray] : ray;
-    return ray_pieces[ray] == ray && (ray > 0 || lit_evenly);
+    return ray_pieces[ray] == ray && (ray > 0 || lit_evenly || !at_edges);
 }
 
-#endif
-
-/* Holds the colour of a ray from the eye and its first hit. */
+/* Holds the colour of a ray from the eye and the light at its first hit. */
 struct shaded_ray {
     vec4 color;
-    hit first;
     float sunlit; /* part of the sun, 0 to 1, that no object hides from the hit */
     float hidden; /* part of its other light that shadows of lamps take */
 };
@@ -165,7 +157,7 @@ shaded_ray shade_eye_ray(vec3 direction, int layer)
         float arriving = sunlit * sunlight_through_smoke(point);
         arrived light = skylight(h, point);
         vec3 mirrored = vec3(0.0);
-        for (int i = 0; i < int(backdrop.counts.y); i++) {
+        for (int i = 0; i < lamp_count(); i++) {
             float seen = add_lamp(i, h, point, light);
 #ifdef FLOOR_GLOSS
             mirrored += seen * reflected_lamp(i, point, m);
@@ -173,7 +165,7 @@ shaded_ray shade_eye_ray(vec3 direction, int layer)
         }
         vec4 color = radiance(h, direction, light.irradiance, arriving);
         if (first)
-            shaded = shaded_ray(color, h, sunlit, light.hidden / max(light.all, 1e-6));
+            shaded = shaded_ray(color, sunlit, light.hidden / max(light.all, 1e-6));
         if (first && h.surface < 0)
             shaded.color.rgb += sun_disc(direction);
 #ifdef FLOOR_GLOSS
@@ -191,48 +183,54 @@ shaded_ray shade_eye_ray(vec3 direction, int layer)
     return shaded;
 }
 
-#if SAMPLES == 1
-
-void main()
-{
-    shaded_ray shaded = shade_eye_ray(ray_direction(gl_FragCoord.xy), 0);
-    hit h = shaded.first;
-    out_color = shaded.color;
-    out_depth = h.t;
-    bool sunny = dot(h.normal, backdrop.sun_direction.xyz) > 0.0 &&
-                 dot(backdrop.sun_color.rgb, vec3(1.0)) > 0.0;
-    float light = (sunny ? shaded.sunlit : 0.0) - shaded.hidden;
-    out_surface = float(4 * h.surface) + (h.surface >= 0 ? light : 0.0);
-#ifdef MESHES
-    out_surface += has_mesh_edge(h.surface) ? KILN_EDGE_MARK : 0.0;
-#endif
-}
-
-#else
-
 #include "shared/edge_mean.h"
 
 const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
 
 #include "draw/backdrop/backdrop_edges.glsl"
 
-void main()
+/* Returns the number of the surface at the pixel's centre. */
+float surface_number(hit h, shaded_ray center)
 {
-    if (!is_edge(ivec2(gl_FragCoord.xy)))
-        discard;
-    lit_evenly = is_lit_evenly(ivec2(gl_FragCoord.xy));
-    vec4 colors[1 + SAMPLES];
-    for (int ray = 0; ray <= SAMPLES; ray++) {
-        vec2 offset = ray == 0 ? vec2(0.5) : SAMPLE_OFFSETS[ray - 1];
-        vec2 place = floor(gl_FragCoord.xy) + offset;
-        colors[ray] = shade_eye_ray(ray_direction(place), ray).color;
-    }
+    bool sunny = dot(h.normal, backdrop.sun_direction.xyz) > 0.0 &&
+                 dot(backdrop.sun_color.rgb, vec3(1.0)) > 0.0;
+    float light = (sunny ? center.sunlit : 0.0) - center.hidden;
+    float number = float(4 * h.surface) + (h.surface >= 0 ? light : 0.0);
+#ifdef MESHES
+    number += has_mesh_edge(h.surface) ? KILN_EDGE_MARK : 0.0;
+#endif
+    return number;
+}
+
+/* Returns the mean of the samples' colours. */
+vec4 mean_color(vec4 colors[1 + SAMPLES])
+{
     edge_sum sum = edge_sum_none();
     for (int ray = 1; ray <= SAMPLES; ray++) {
         vec4 color = colors[ray_pieces[ray]];
         sum = edge_add(sum, color.rgb, color.a, 1.0 / float(SAMPLES), view.exposure.x);
     }
-    out_color = vec4(edge_mean(sum), sum.alpha);
+    return vec4(edge_mean(sum), sum.alpha);
 }
 
-#endif
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    if (at_edges && !is_edge(pixel))
+        discard;
+    lit_evenly = at_edges && is_lit_evenly(pixel);
+    vec4 colors[1 + SAMPLES];
+    shaded_ray center;
+    int ray = 0, last = at_edges ? SAMPLES : 0;
+    do {
+        vec2 offset = ray == 0 ? vec2(0.5) : SAMPLE_OFFSETS[ray - 1];
+        shaded_ray shaded = shade_eye_ray(ray_direction(vec2(pixel) + offset), ray);
+        colors[ray] = shaded.color;
+        if (ray == 0)
+            center = shaded;
+        ray++;
+    } while (ray <= last);
+    out_color = at_edges ? mean_color(colors) : colors[0];
+    out_depth = ray_hits[0].t;
+    out_surface = surface_number(ray_hits[0], center);
+}

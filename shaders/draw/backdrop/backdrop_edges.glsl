@@ -1,5 +1,5 @@
 /* Finds edges in the picture of numbers that backdrop.frag draws first (shared/draw_layout.h):
- * backdrop_edges.vert finds the tiles that may have some, backdrop.frag their pixels. Pixels beside
+ * backdrop.vert finds the tiles that may have some, backdrop.frag their pixels. Pixels beside
  * the picture repeat those at its border. */
 #include "shared/shape_layout.h"
 

@@ -23,7 +23,7 @@ vec3 reflected_lamp(int i, vec3 point, reflection m)
     vec4 lamp = backdrop.lights[i].position_radius2;
     vec3 towards = lamp.xyz - point;
     float share = 1.0;
-    if (backdrop.lights[i].facing.w == KILN_LAMP_RECTANGLE)
+    if (LAMP_IS_RECTANGLE(backdrop.lights[i]))
         share = lamp_share(backdrop.lights[i], towards);
     return backdrop.lights[i].color.rgb *
            (share * floor_reflects_lamp(towards, lamp.w, m.at.normal, m.at.to_eye, m.at.spread));

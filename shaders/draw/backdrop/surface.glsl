@@ -5,7 +5,9 @@
  *
  * The including shader declares the blocks `view`, `backdrop` and `shapes`. Defines compile in the
  * shadows of what not every scene has: KILN_SHAPES (kinds of shapes), MESHES, SOLIDS (solid
- * particles). SKY_IMAGE takes the sky from an image. */
+ * particles). SKY_IMAGE takes the sky from an image. Other defines leave out what the scene has
+ * none of: NO_SUN, NO_SMOKE (smoke that throws shadows), NO_LAMPS (lamps and light of fire),
+ * NO_LAMP_SHADOWS, NO_RECTANGLES (lamps that are rectangles). */
 #include "draw/light/smoke_shadow.glsl"
 #include "shared/lamp.h"
 #include "shared/light_cover.h"
@@ -52,6 +54,9 @@ vec3 ray_direction(vec2 pixel)
 /* Returns the part of the sun, 0 to 1, that the objects leave visible from a point of a surface. */
 float sun_visibility(vec3 point, vec3 normal)
 {
+#ifdef NO_SUN
+    return 0.0;
+#else
     vec3 origin = point + normal * LIGHT_START;
     float visible = shapes_light_visibility(
         ~0u, origin, sun_way_of(backdrop.sun_direction, shapes.sun_right.w, 0.0));
@@ -62,6 +67,7 @@ float sun_visibility(vec3 point, vec3 normal)
     visible *= solid_sun_visibility(origin);
 #endif
     return visible;
+#endif
 }
 
 /* Returns the part of the sky, 0 to 1, that the objects leave visible from a point of a surface.
@@ -120,6 +126,9 @@ vec3 horizon(vec3 direction)
  * particles. */
 float lamp_visibility(int i, vec3 point, vec3 normal)
 {
+#ifdef NO_LAMP_SHADOWS
+    return 1.0;
+#else
     vec3 origin = point + normal * LIGHT_START;
     light_way way = lamp_way_to(backdrop.lights[i], origin, normal, 0.0);
     float visible = shapes_light_visibility(backdrop.lights[i].casters.x, origin, way);
@@ -134,6 +143,7 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
     visible *= 1.0 - solid_lamp_cover(i, normal, way);
 #endif
     return visible;
+#endif
 }
 
 /* Holds the light of sky and lamps that arrives at a point. */
@@ -170,11 +180,21 @@ float add_lamp(int i, hit h, vec3 point, inout arrived light)
     return seen;
 }
 
+/* Returns how many lamps there are. */
+int lamp_count()
+{
+#ifdef NO_LAMPS
+    return 0;
+#else
+    return int(backdrop.counts.y);
+#endif
+}
+
 /* Returns the irradiance from the sky and the lamps. */
 vec3 irradiance_without_sun(hit h, vec3 point)
 {
     arrived light = skylight(h, point);
-    for (int i = 0; i < int(backdrop.counts.y); i++)
+    for (int i = 0; i < lamp_count(); i++)
         add_lamp(i, h, point, light);
     return light.irradiance;
 }

@@ -5,9 +5,28 @@
  * The host has filled the grids of sun and sky (lib/draw/light/smoke_shadow.h), whose third axis
  * points to the light, and the maps of lamps (lib/draw/light/lamp_smoke.h).
  * lib/draw/light/lighting_gl.c binds them to these units. They are undefined where there is no
- * smoke, that is where backdrop.counts.w is 0. */
+ * smoke, that is where backdrop.counts.w is 0. With NO_SMOKE, there never is any. */
 #include "shared/lamp_smoke.h"
 #include "shared/smoke_grid.h"
+
+#ifdef NO_SMOKE
+
+float smoke_depth_to_sun(vec3 position)
+{
+    return 0.0;
+}
+
+float smoke_depth_to_sky(vec3 position)
+{
+    return 0.0;
+}
+
+float smoke_depth_to_lamp(int i, vec3 position)
+{
+    return 0.0;
+}
+
+#else
 
 layout(binding = KILN_UNIT_SMOKE_SUN) uniform sampler3D smoke_to_sun;
 layout(binding = KILN_UNIT_SMOKE_SKY) uniform sampler3D smoke_to_sky;
@@ -48,6 +67,8 @@ float smoke_depth_to_lamp(int i, vec3 position)
     return mix(textureLod(smoke_to_lamps, vec3(at, layer), 0.0).r,
                textureLod(smoke_to_lamps, vec3(at, layer + 1.0), 0.0).r, place.layer - first);
 }
+
+#endif
 
 /* Return the part of the light of sun and sky that smoke lets through. */
 float sunlight_through_smoke(vec3 position)
