@@ -76,6 +76,19 @@ TABLE(capsule) = {
     END,
 };
 
+TABLE(cone) = {
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+           "Centre of the cone, halfway between its base and its tip."),
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Direction from the base to the tip, of any length but 0."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the base."),
+    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+          "Height along the axis, from the base to the tip."),
+    REFLECTANCE,
+    COLLIDING,
+    END,
+};
+
 TABLE(plane) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A point of the plane. The plane turns about this point."),
@@ -223,6 +236,10 @@ KINDS(object_kinds) = {
      .value = KILN_OBJECT_CAPSULE,
      MEMBERS(capsule),
      .help = "A cylinder with round ends, along any axis."},
+    {.name = "cone",
+     .value = KILN_OBJECT_CONE,
+     MEMBERS(cone),
+     .help = "A cone with a flat base, along any axis."},
     {.name = "plane",
      .value = KILN_OBJECT_PLANE,
      MEMBERS(plane),

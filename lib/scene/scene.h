@@ -284,6 +284,7 @@ enum kiln_object_kind {
     KILN_OBJECT_CAPSULE, /* with round caps */
     KILN_OBJECT_PLANE,   /* the half-space below it is solid */
     KILN_OBJECT_TERRAIN, /* drawn as a mesh */
+    KILN_OBJECT_CONE,    /* with a flat base; its axis points to the tip */
 };
 
 /* A mesh that moves in its own space by a clip of its file (asset/geometry/skin.h). */
@@ -334,7 +335,7 @@ struct kiln_object {
     struct kiln_value3 center;
     struct kiln_value3 color;    /* albedo */
     struct kiln_value3 size;     /* m: box, full edges; terrain, constant */
-    struct kiln_value radius;    /* m: sphere, cylinder, capsule */
+    struct kiln_value radius;    /* m: sphere, cylinder, capsule, base of a cone */
     struct kiln_value height;    /* m: along the axis; of a capsule, without its caps */
     struct kiln_value3 axis;     /* of a plane: normal; not zero, of any length */
     const char *file;            /* mesh: an absolute path; terrain: that of an image, or NULL */

@@ -316,6 +316,8 @@ static const char *name_of_axis(const struct kiln_object *object)
         return "cylinder.axis";
     if (object->kind == KILN_OBJECT_CAPSULE)
         return "capsule.axis";
+    if (object->kind == KILN_OBJECT_CONE)
+        return "cone.axis";
     return object->kind == KILN_OBJECT_PLANE ? "plane.normal" : NULL;
 }
 

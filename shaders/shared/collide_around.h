@@ -29,13 +29,15 @@ FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius
 
 /* Returns the factor on a radius by which bounds grow in any orientation: by the root of three for
  * a box's corners, by the root of two for a cylinder's edges. */
-FN float collide_askew_growth(uint kind)
+FN float collide_askew_growth(uint kind, float steepest)
 {
     EXACT float y = 1.0f;
     if (kind == COLLIDER_ORIENTED_BOX)
         y = 1.7321f;
     else if (kind == COLLIDER_ORIENTED_CYLINDER)
         y = 1.4143f;
+    else if (kind == COLLIDER_CONE)
+        y = steepest;
     return y;
 }
 
@@ -48,12 +50,16 @@ FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
     if (radius > 0.0f && c.kind >= COLLIDER_TERRAIN) {
         c = collide_field_around(c, radius);
     } else if (radius > 0.0f) {
-        EXACT float higher = radius * collide_askew_growth(c.kind);
+        EXACT float higher = radius * collide_askew_growth(c.kind, c.steepest);
         EXACT float lower = -higher;
         c.min = collide_shifted(c.min, lower);
         c.min_end = collide_shifted(c.min_end, lower);
         c.max = collide_shifted(c.max, higher);
         c.max_end = collide_shifted(c.max_end, higher);
+        if (c.kind == COLLIDER_CONE) { /* whose shape depends on the ball (shape_cone.h) */
+            c.extent.w = radius;
+            return c;
+        }
         c.center.w = c.center.w + radius;
         c.center_end.w = c.center_end.w + radius;
         if (c.kind == COLLIDER_CYLINDER) {
@@ -114,7 +120,7 @@ FN_CLOSE float collide_bounds_growth(const S(kiln_collider) *c)
 {
     return c->kind == COLLIDER_TERRAIN    ? c->steepest
            : c->kind == COLLIDER_CYLINDER ? 1.4143f
-                                          : collide_askew_growth(c->kind);
+                                          : collide_askew_growth(c->kind, c->steepest);
 }
 
 /* Returns whether a way may be within bounds that are enlarged by r and a gap. */

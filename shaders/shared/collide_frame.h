@@ -12,6 +12,7 @@ struct collide_frame {
     float4 pose;
     float3 extent;
     float radius;
+    float swell; /* radius of the ball that meets a cone, m; other kinds are enlarged by it */
 };
 
 /* Returns the pose after the part `since` of the step. */
@@ -42,6 +43,7 @@ FN S(collide_frame) collide_frame_at(S(kiln_collider) c, float since)
     frame.extent = FLOAT3(collide_moving(c.extent.x, c.extent_end.x, since),
                           collide_moving(c.extent.y, c.extent_end.y, since),
                           collide_moving(c.extent.z, c.extent_end.z, since));
+    frame.swell = c.extent.w;
     frame.pose = collide_pose_at(c, since);
     return frame;
 }

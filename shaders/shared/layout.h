@@ -174,6 +174,7 @@ struct kiln_step_params {
 #define COLLIDER_ORIENTED_CYLINDER 4u
 #define COLLIDER_CAPSULE           5u
 #define COLLIDER_PLANE             6u
+#define COLLIDER_CONE              7u
 
 #define COLLIDER_TERRAIN 16u /* this kind and those below look up grids */
 #define COLLIDER_SDF     17u
@@ -194,12 +195,15 @@ struct kiln_collider {
     float half_height_end;
     float restitution, friction; /* factors on the system's restitution and friction */
     /* The members below are for shapes in frames of their own. */
-    float4 extent, extent_end; /* m: half of the edges, or of the height in y */
-    float4 pose;               /* from the frame to the world at the start: a unit quaternion */
-    float4 spin;               /* unit; w: the angle by which the step turns it, rad */
-    uint grid;                 /* number of the grid of terrain or of a mesh */
-    uint mesh;                 /* number of the pose of a mesh */
-    /* terrain: m by which a ball of radius 1 m is raised over its steepest slope */
+    /* m: half of the edges, or of the height in y; w: radius of the ball that meets a cone
+     * (collide_around) */
+    float4 extent, extent_end;
+    float4 pose; /* from the frame to the world at the start: a unit quaternion */
+    float4 spin; /* unit; w: the angle by which the step turns it, rad */
+    uint grid;   /* number of the grid of terrain or of a mesh */
+    uint mesh;   /* number of the pose of a mesh */
+    /* m by which a ball of radius 1 m enlarges bounds: terrain over its steepest slope, a cone at
+     * its edges */
     float steepest;
     uint planes; /* volume: the word of its first plane, and VOLUME_TWO_SIDED */
 };

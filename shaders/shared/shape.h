@@ -45,6 +45,13 @@ REAL_FN real3 shape_across(S(kiln_draw_shape) s, real3 v, real along)
     return real3_add_scaled(v, real3_all(s.rows[1]), -along);
 }
 
+/* Returns how far a disc extends along a direction, m. climb: the cosine between its normal and the
+ * direction. */
+REAL_FN real disc_reach(float radius, real climb)
+{
+    return radius * real_sqrt(real_max(1.0f - climb * climb, real_all(0.0f)));
+}
+
 /* ---- rays ------------------------------------------------------------------------------------ */
 
 /* The t at which a ray enters and leaves. */

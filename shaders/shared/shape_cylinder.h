@@ -110,13 +110,6 @@ REAL_FN truth cylinder_is_smooth(S(kiln_draw_shape) s, real3 towards, S(light_wa
     return light_blurs(way, cylinder_distance(s, towards));
 }
 
-/* Returns how far a disc extends along a direction, m. climb: the cosine between its normal and the
- * direction. */
-REAL_FN real disc_reach(float radius, real climb)
-{
-    return radius * real_sqrt(real_max(1.0f - climb * climb, real_all(0.0f)));
-}
-
 REAL_FN real cylinder_sky(S(kiln_draw_shape) s, real3 towards, real3 normal)
 {
     real climb = shape_along(s, normal);

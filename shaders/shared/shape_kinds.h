@@ -5,12 +5,14 @@
     ROW(BOX, box)                                                                                  \
     ROW(CYLINDER, cylinder)                                                                        \
     ROW(CAPSULE, capsule)                                                                          \
-    ROW(PLANE, plane)
+    ROW(PLANE, plane)                                                                              \
+    ROW(CONE, cone)
 #define SHAPE_KINDS_OF_COLLISION(ROW)                                                              \
     ROW(ORIENTED_BOX, box)                                                                         \
     ROW(ORIENTED_CYLINDER, cylinder)                                                               \
     ROW(CAPSULE, capsule)                                                                          \
-    ROW(PLANE, plane)
+    ROW(PLANE, plane)                                                                              \
+    ROW(CONE, cone)
 
 /* All kinds have the same parameters, of which some use only a part. */
 #ifndef GL_core_profile
@@ -20,6 +22,7 @@
 
 #include "shared/shape_box.h"
 #include "shared/shape_capsule.h"
+#include "shared/shape_cone.h"
 #include "shared/shape_cylinder.h"
 #include "shared/shape_plane.h"
 

@@ -84,7 +84,8 @@ struct kiln_draw_mesh {
 #define SHAPE_CYLINDER 1u
 #define SHAPE_CAPSULE  2u
 #define SHAPE_PLANE    3u
-#define SHAPE_KINDS    4u
+#define SHAPE_CONE     4u
+#define SHAPE_KINDS    5u
 
 /* Words of four numbers with one for each kind and one more. */
 #define KILN_SHAPE_FIRSTS 2

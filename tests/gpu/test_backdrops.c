@@ -216,6 +216,7 @@ static void check_agreement(struct moment *m, const char *name)
     "    - capsule: {center: [0.3, 0.6, 0.2], axis: [0.4, 2, 0.3], radius: 0.25 m, height: 0.6 "   \
     "m}\n"                                                                                         \
     "    - capsule: {center: [-0.4, 0.3, -0.9], axis: [1, 0, 0.2], radius: 0.2 m, color: 0.6}\n"   \
+    "    - cone: {center: [1.0, 0.5, -0.4], axis: [0.2, 1, 0.3], radius: 0.3 m, height: 0.7 m}\n"  \
     "    - plane: {center: [0, 0, -3], normal: [0.2, 1, 2], color: [0.3, 0.5, 0.2]}\n"
 #define MESHES                                                                                     \
     "  objects:\n"                                                                                 \

@@ -297,6 +297,10 @@ void fixture_add_oriented(struct scene_fixture *f)
     capsule->radius = fixture_ramp(f, time, 1.0f, 0.1f, 3.0f, 0.3f);
     struct kiln_object *rod = fixture_add_cylinder(f, 1.2f, 1.6f, 0.0f, 0.15f, 1.0f);
     rod->axis.z = fixture_ramp(f, time, 0.0f, 1.0f, 2.0f, -1.0f);
+    struct kiln_object *cone = fixture_add_cylinder(f, 0.1f, 2.2f, 0.2f, 0.3f, 0.6f);
+    cone->kind = KILN_OBJECT_CONE;
+    cone->axis.x = fixture_ramp(f, time, 0.0f, -0.5f, 3.0f, 1.0f);
+    cone->radius = fixture_ramp(f, time, 0.0f, 0.3f, 2.0f, 0.5f);
     struct kiln_object *plane = fixture_add_plane(f, -1.2f, 0.0f, 0.0f);
     plane->axis = fixture_constant3(1.0f, 0.3f, 0.1f);
     plane->center.x = fixture_ramp(f, time, 0.0f, -1.8f, 2.0f, -1.2f);

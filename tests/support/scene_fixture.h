@@ -99,8 +99,8 @@ void fixture_zoo_backdrop(struct scene_fixture *f);
 void fixture_add_round(struct scene_fixture *f);
 
 /* Adds colliders that are not along the axes of the world, most of which move or turn: boxes, a
- * capsule, a cylinder and planes. Gives every second system friction, and a restitution that falls
- * over the life. */
+ * capsule, a cylinder, a cone and planes. Gives every second system friction, and a restitution
+ * that falls over the life. */
 void fixture_add_oriented(struct scene_fixture *f);
 
 /* Adds the velocity field of whirl.grid to a system: (-2 z, 0.5 + 0.3 y, 2 x), m/s, for x from -1.5

@@ -65,6 +65,14 @@ static struct kiln_object *add_lying_capsule(void)
     return capsule;
 }
 
+static struct kiln_object *add_cone_base(void)
+{
+    struct kiln_object *cone = fixture_add_cylinder(&fixture, 0, -1, 0, 30, 2);
+    cone->kind = KILN_OBJECT_CONE;
+    cone->axis = fixture_constant3(0, -2, 0);
+    return cone;
+}
+
 /* Adds flat terrain: its heights come from a picture of one black pixel. */
 static struct kiln_object *add_flat_terrain(void)
 {
@@ -104,6 +112,7 @@ const struct surface surfaces[SURFACES] = {
     {"side of a cylinder", add_cylinder_side, SURFACE_LYING, true},
     {"cylinder that may turn", add_turning_cylinder, SURFACE_LYING, true},
     {"capsule", add_lying_capsule, SURFACE_LYING, true},
+    {"base of a cone", add_cone_base, SURFACE_FLAT, true},
     {"terrain", add_flat_terrain, SURFACE_FLAT, false},
     {"distance field", add_slab, SURFACE_FLAT, true},
     {"depth maps", add_mapped_slab, SURFACE_FLAT, true},

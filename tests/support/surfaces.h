@@ -11,7 +11,7 @@ enum surface_form {
     SURFACE_LYING  /* a cylinder or capsule of radius 5 m along z */
 };
 
-enum { SURFACES = 12 };
+enum { SURFACES = 13 };
 
 extern const struct surface {
     const char *name; /* for messages */

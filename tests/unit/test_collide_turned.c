@@ -66,6 +66,8 @@ static double outside_of(const struct kiln_scene *scene, const struct kiln_objec
     double foot = object->kind == KILN_OBJECT_CAPSULE ? fmin(fmax(height, -half), half) : height;
     struct vec aside = along(q, axis, -foot);
     double away = sqrt(dot(aside, aside)) - radius;
+    if (object->kind == KILN_OBJECT_CONE) /* which is narrower above its base */
+        away += radius * (height + half) / (2 * half);
     return object->kind == KILN_OBJECT_CAPSULE ? away : fmax(away, fabs(height) - half);
 }
 

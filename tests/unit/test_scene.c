@@ -85,7 +85,7 @@ static void every_key_of_the_backdrop_arrives(void **state)
     assert_true(backdrop->sky_top.z.constant == 0.01f);
     assert_true(backdrop->floor_checker.constant == 0.25f);
     assert_true(backdrop->haze.constant == 0.5f);
-    assert_int_equal(backdrop->object_count, 5);
+    assert_int_equal(backdrop->object_count, 6);
     assert_true(backdrop->objects[0].size.z.constant == 0.5f && !backdrop->objects[0].collide);
     assert_true(backdrop->objects[1].size.z.constant == 1 && backdrop->objects[1].collide);
     assert_true(backdrop->objects[2].rotation.y.count == 2 &&
@@ -93,6 +93,8 @@ static void every_key_of_the_backdrop_arrives(void **state)
     assert_true(backdrop->objects[3].axis.y.count == 2 &&
                 backdrop->objects[3].friction.constant == 1);
     assert_true(!backdrop->objects[4].visible && backdrop->objects[4].axis.x.constant == 0.1f);
+    assert_true(backdrop->objects[5].axis.y.count == 2 &&
+                backdrop->objects[5].height.constant == 0.5f);
     assert_int_equal(backdrop->light_count, 3);
     const struct kiln_light *spot = &backdrop->lights[1], *rectangle = &backdrop->lights[2];
     assert_int_equal(backdrop->lights[0].kind, KILN_LIGHT_POINT);

@@ -17,7 +17,7 @@ enum { RAYS = 400, BALLS = 60 };
 enum { RAYS = 400, BALLS = 300 };
 #endif
 
-enum kind { BOX, SPHERE, CYLINDER, CAPSULE };
+enum kind { BOX, SPHERE, CYLINDER, CAPSULE, CONE };
 
 static const float3 CENTER = {0.3f, 1.0f, -0.2f}, HALF = {0.8f, 0.4f, 0.6f};
 static const float RADIUS = 0.7f, HALF_HEIGHT = 0.9f;
@@ -50,7 +50,10 @@ static bool hides(enum kind kind, float3 from, float3 direction)
             fabsf(height) < HALF_HEIGHT && float3_dot(aside, aside) < RADIUS * RADIUS;
         float beyond = height - fmaxf(fminf(height, HALF_HEIGHT), -HALF_HEIGHT);
         bool in_capsule = float3_dot(aside, aside) + beyond * beyond < RADIUS * RADIUS;
-        const bool inside[] = {in_box, in_sphere, in_cylinder, in_capsule};
+        const float width = RADIUS * (HALF_HEIGHT - height) / (2.0f * HALF_HEIGHT);
+        bool in_cone =
+            height > -HALF_HEIGHT && width > 0.0f && float3_dot(aside, aside) < width * width;
+        const bool inside[] = {in_box, in_sphere, in_cylinder, in_capsule, in_cone};
         if (inside[kind])
             return true;
     }
@@ -82,7 +85,8 @@ static float hidden_by(const struct kiln_draw_shape *s, struct kiln_ball ball,
 
 static struct kiln_draw_shape shape_of(enum kind kind)
 {
-    static const uint32_t kinds[] = {SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_CAPSULE};
+    static const uint32_t kinds[] = {SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_CAPSULE,
+                                     SHAPE_CONE};
     const float3 up = axis();
     struct kiln_draw_shape s = {.kind = {kinds[kind], kind != BOX, 0, 0},
                                 .center = {CENTER.x, CENTER.y, CENTER.z, 0.0f},
@@ -94,6 +98,7 @@ static struct kiln_draw_shape shape_of(enum kind kind)
     }
     s.center.w = s.kind.x == SHAPE_BOX        ? box_size(s)
                  : s.kind.x == SHAPE_CYLINDER ? cylinder_size(s)
+                 : s.kind.x == SHAPE_CONE     ? cone_size(s)
                                               : capsule_size(s);
     return s;
 }
@@ -149,14 +154,14 @@ static void check(enum kind kind, float radius, float spread, float tolerance)
 static void points_see_a_part_of_the_sun(void **state)
 {
     (void)state;
-    for (enum kind kind = BOX; kind <= CAPSULE; kind++)
+    for (enum kind kind = BOX; kind <= CONE; kind++)
         check(kind, 0.0f, 0.1f, 0.16f);
 }
 
 static void balls_are_shaded_in_part(void **state)
 {
     (void)state;
-    for (enum kind kind = BOX; kind <= CAPSULE; kind++)
+    for (enum kind kind = BOX; kind <= CONE; kind++)
         check(kind, 0.3f, 0.0f, 0.16f);
 }
 
@@ -185,7 +190,7 @@ static void shade_ends_softly(void **state)
 {
     (void)state;
     const struct kiln_sun_frame sun = sun_at((float3){-0.5f, 0.8f, 0.4f}, 0.01f);
-    for (enum kind kind = BOX; kind <= CAPSULE; kind++) {
+    for (enum kind kind = BOX; kind <= CONE; kind++) {
         float before = 1.0f;
         for (int i = 0; i <= 300; i++) {
             float3 at = float3_add_scaled(CENTER, sun.towards, -1.5f + 0.01f * (float)i);

@@ -140,6 +140,7 @@ static void colliders_are_known(void **state)
         {OBJECT("cylinder: {collide: true}"), BIT(COLLIDER_CYLINDER)},
         {OBJECT("capsule: {collide: true}"), BIT(COLLIDER_CAPSULE)},
         {OBJECT("plane: {collide: true}"), BIT(COLLIDER_PLANE)},
+        {OBJECT("cone: {collide: true}"), BIT(COLLIDER_CONE)},
         {OBJECT("sphere: {collide: true}, capsule: {collide: true}"),
          BIT(COLLIDER_SPHERE) | BIT(COLLIDER_CAPSULE)},
     };

@@ -39,6 +39,8 @@ static uint32_t shape_of(const struct kiln_object *object)
         return SHAPE_CYLINDER;
     case KILN_OBJECT_PLANE:
         return object->visible ? SHAPE_PLANE : SHAPE_KINDS;
+    case KILN_OBJECT_CONE:
+        return SHAPE_CONE;
     case KILN_OBJECT_MESH:
     case KILN_OBJECT_TERRAIN:
         break;

@@ -134,7 +134,7 @@ static bool has_rubbing(const struct kiln_sim_params *params)
 enum {
     KINDS_ROUND = 1u << COLLIDER_SPHERE | 1u << COLLIDER_CYLINDER,
     KINDS_ORIENTED = 1u << COLLIDER_ORIENTED_BOX | 1u << COLLIDER_ORIENTED_CYLINDER |
-                     1u << COLLIDER_CAPSULE | 1u << COLLIDER_PLANE,
+                     1u << COLLIDER_CAPSULE | 1u << COLLIDER_PLANE | 1u << COLLIDER_CONE,
     KINDS_FIELD = 1u << COLLIDER_TERRAIN | 1u << COLLIDER_SDF | 1u << COLLIDER_DEPTH,
 };
 

@@ -3,6 +3,8 @@
  * on every host. */
 #include "sim/world/oriented.h"
 
+#include <math.h>
+
 #include "base/matrix.h"
 #include "shared/exact.h"
 
@@ -18,6 +20,7 @@ bool kiln_object_is_oriented(const struct kiln_object *object)
         return !kiln_value3_is_constant(&object->axis);
     case KILN_OBJECT_CAPSULE:
     case KILN_OBJECT_PLANE:
+    case KILN_OBJECT_CONE:
         return true;
     case KILN_OBJECT_SPHERE:
     case KILN_OBJECT_MESH:
@@ -182,9 +185,21 @@ uint kiln_oriented_kind(const struct kiln_object *object)
         return COLLIDER_CAPSULE;
     case KILN_OBJECT_PLANE:
         return COLLIDER_PLANE;
+    case KILN_OBJECT_CONE:
+        return COLLIDER_CONE;
     default:
         return COLLIDER_ORIENTED_CYLINDER;
     }
+}
+
+/* Returns how far the edges of a cone's base move outwards while its surfaces do so by 1 m: the
+ * sharper the edge, the farther. */
+static float edge_growth(struct place place)
+{
+    const float tall = 2.0f * place.extent.y;
+    const float side = sqrtf(tall * tall + place.radius * place.radius);
+    const float aside = (place.radius + side) / tall;
+    return 1.0001f * sqrtf(1.0f + aside * aside);
 }
 
 struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
@@ -211,5 +226,8 @@ struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
         .pose = FLOAT4(start.pose[0], start.pose[1], start.pose[2], start.pose[3]),
         .kind = kiln_oriented_kind(object),
         .spin = spin,
+        .steepest = object->kind == KILN_OBJECT_CONE
+                        ? exact_max(edge_growth(start), edge_growth(end))
+                        : 0.0f,
     };
 }
