@@ -1,7 +1,7 @@
 /* Declares what all kinds of shapes of the backdrop have in common: their frame, the interval in
  * which a ray is inside, and the sky beside them. Each kind has a file shape_KIND.h
- * (shapes.h). Every shape is convex. In the names of formulas, a ray that misses leaves a shape
- * before it enters, and `towards` is the way from a point to the shape's centre, m. */
+ * (shapes.h). Every shape is convex. A ray that misses a shape leaves it before it enters.
+ * `towards` is the way from a point to the shape's centre, m. */
 #ifndef KILN_SHARED_SHAPE_H
 #define KILN_SHARED_SHAPE_H
 

@@ -1,4 +1,5 @@
-/* Boxes, along the axes of the world or in a frame of their own. */
+/* Draws boxes, which lie along the axes of the world or in a frame of their own, and lets particles
+ * collide with the latter (collide_box.h has the former). */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_BOX_DRAWN)
 #define KILN_BOX_DRAWN
 

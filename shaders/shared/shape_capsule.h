@@ -1,5 +1,5 @@
-/* Capsules: all balls of one radius whose centres lie on a segment. A ball is a capsule whose
- * segment has no length. */
+/* Draws capsules and lets particles collide with them. A capsule is all balls of one radius whose
+ * centres lie on a segment. A ball is drawn as a capsule whose segment has no length. */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_CAPSULE_DRAWN)
 #define KILN_CAPSULE_DRAWN
 

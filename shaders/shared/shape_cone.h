@@ -1,5 +1,5 @@
-/* Cones with a flat base. The centre is halfway between the base, where the radius is the whole
- * one, and the tip, which the axis points to. */
+/* Draws cones with a flat base and lets particles collide with them. The centre is halfway between
+ * the base, where the radius is the whole one, and the tip, which the axis points to. */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_CONE_DRAWN)
 #define KILN_CONE_DRAWN
 

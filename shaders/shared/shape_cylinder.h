@@ -1,4 +1,5 @@
-/* Cylinders with flat ends. */
+/* Draws cylinders with flat ends, and lets particles collide with those whose axis turns
+ * (collide_round.h has the others). */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_CYLINDER_DRAWN)
 #define KILN_CYLINDER_DRAWN
 

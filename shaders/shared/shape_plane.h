@@ -1,5 +1,6 @@
-/* Planes: the half spaces below them. A plane hides the same part of a light from all places above
- * it, so the host dims lights by planes, and here a plane hides nothing. */
+/* Draws planes and lets particles collide with the half spaces below them. A plane hides the same
+ * part of a light from all places above it, so the host dims lights by planes, and the functions of
+ * this file that say what a plane hides say that it is nothing. */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_PLANE_DRAWN)
 #define KILN_PLANE_DRAWN
 
