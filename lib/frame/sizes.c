@@ -67,6 +67,7 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
         {"systems", "systems", scene->system_count, 16},
         {"forces", "forces of a system", most_forces(scene), 16},
         {"scene", "keys", scene->key_count, KILN_BLOCK_KEYS},
+        {"backdrop.objects", "objects", scene->backdrop.object_count, 32},
         {"backdrop.lights", "lights", scene->backdrop.light_count, 16},
     };
     const bool found = kiln_techniques_paper(techniques, paper, &instead);

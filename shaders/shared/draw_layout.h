@@ -145,11 +145,13 @@ struct kiln_view {
 struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
     float4 color; /* radiance of a white surface 1 m in front, far from the lamp; w: radius, m */
-    /* x: a bit for each shape of kiln_draw_shapes that may hide the light; y: 1 + number of its
+    /* x: 1 if shapes may hide the light; y: 1 + number of its
      * shadow maps of meshes, and from KILN_LAMP_SOLID_SHIFT on that of its maps of solid particles;
      * z: 1 + number of its map of smoke; for all three, 0: none; w: 1: it may be hidden; 3:
      * particles have their part */
     uint4 casters;
+    /* A bit for each shape of kiln_draw_shapes that may hide the light. */
+    uint4 hiders[KILN_MAX_OBJECTS / 128];
     /* Distance that the shadow maps of meshes reach, m; distance of the first layer of the map of
      * smoke, m; layers of it that double the distance; reach of the maps of solids, m. */
     float4 maps;

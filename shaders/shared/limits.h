@@ -8,13 +8,13 @@
 #define KILN_MAX_VALUE_KEYS 65536
 #define KILN_BLOCK_KEYS     1024
 
-#define KILN_MAX_FORCES           32 /* a system */
-#define KILN_MAX_DEMITTERS        8  /* a system */
-#define KILN_MAX_BURSTS           64 /* a system */
-#define KILN_MAX_OBJECTS          32 /* a scene */
-#define KILN_MAX_MESHES           8  /* a scene, including terrain; meshes also count as objects */
-#define KILN_MAX_LIGHTS           64 /* a scene */
-#define KILN_MAX_DEPTH_DIRECTIONS 6  /* a mesh; each direction has a front and a back */
+#define KILN_MAX_FORCES           32  /* a system */
+#define KILN_MAX_DEMITTERS        8   /* a system */
+#define KILN_MAX_BURSTS           64  /* a system */
+#define KILN_MAX_OBJECTS          256 /* a scene */
+#define KILN_MAX_MESHES           8   /* a scene, including terrain; meshes also count as objects */
+#define KILN_MAX_LIGHTS           64  /* a scene */
+#define KILN_MAX_DEPTH_DIRECTIONS 6   /* a mesh; each direction has a front and a back */
 
 /* Generations from a first parent to its last descendants. */
 #define KILN_MAX_GENERATIONS 4
@@ -25,8 +25,11 @@
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65
 
-/* Colliders: objects and the floor. */
-#define KILN_MAX_COLLIDERS 33
+/* Colliders: objects and the floor; and the most that have room in a uniform block of 16 KiB,
+ * beside all else in struct kiln_surroundings. With more, that lies in a storage block
+ * (SURROUNDINGS_STORED). */
+#define KILN_MAX_COLLIDERS   257
+#define KILN_BLOCK_COLLIDERS 33
 
 #define KILN_MAX_WINDS 8                                  /* wind files of a scene */
 #define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* wind and colliders */
@@ -39,10 +42,12 @@
 #define SIM_BIND_STEP         1
 #define SIM_BIND_SURROUNDINGS 2
 
-/* Storage blocks. shared/papers/step_layout.h has one more. */
+/* Storage blocks. Techniques of papers have another one in the place of SIM_BIND_AROUND
+ * (shared/papers/step_layout.h). */
 #define SIM_BIND_RECORDS 0
 #define SIM_BIND_SUMS    1
 #define SIM_BIND_TRACES  2
+#define SIM_BIND_AROUND  3 /* the surroundings, if they are stored */
 #define SIM_BIND_GRIDS   4
 #define SIM_BIND_PUSHES  5
 #define SIM_BIND_SPINS   6

@@ -8,7 +8,11 @@
 #include "shared/limits.h"
 #include "shared/platform.h"
 
-#define KILN_BIND_SHAPES 4 /* a uniform block */
+/* The uniform block of shapes, and the storage block that has all shapes of a scene with more than
+ * KILN_BLOCK_SHAPES (SHAPES_STORED). */
+#define KILN_BIND_SHAPES        4
+#define KILN_BIND_STORED_SHAPES 6
+#define KILN_BLOCK_SHAPES       32
 
 /* Texture units of the backdrop. Those that other stages use, too, are in draw_layout.h, 12 is in
  * tiled_layout.h. */
@@ -40,7 +44,9 @@
 #define KILN_FACE_LEAST       -4
 #define KILN_FACE_MOST        4
 #define KILN_SURFACE_SHAPE(i) (5 + 9 * (i))
-#define KILN_SURFACE_MESHES   KILN_SURFACE_SHAPE(KILN_MAX_OBJECTS)
+/* Returns the number of the first mesh in a scene of `count` shapes. */
+#define KILN_SURFACE_MESHES(count)                                                                 \
+    KILN_SURFACE_SHAPE((count) > KILN_BLOCK_SHAPES ? (count) : KILN_BLOCK_SHAPES)
 
 /* Edge of a mesh's shadow map, texels; a mesh fills all of them but a border. */
 #define KILN_SHADOW_EDGE   1024
@@ -100,7 +106,8 @@ struct kiln_draw_shape {
 };
 
 struct kiln_draw_shapes {
-    uint4 counts;           /* shapes; unused; meshes; bins of solids along an edge, or 0 */
+    uint4 counts; /* shapes; number of the first mesh as a surface; meshes; bins of solids along an
+                     edge, or 0 */
     float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
     float4 sun_up;          /* unit, across sun_right and the sun's direction */
     float4 world_to_bin[2]; /* rows: world positions to bins of particles */
@@ -114,7 +121,11 @@ struct kiln_draw_shapes {
     /* Shapes in the order of their kinds; by kind, the first one, and after the last kind the end.
      */
     uint4 first[KILN_SHAPE_FIRSTS];
+#ifdef GL_core_profile
+    S(kiln_draw_shape) shapes[KILN_BLOCK_SHAPES];
+#else
     S(kiln_draw_shape) shapes[KILN_MAX_OBJECTS];
+#endif
 };
 
 /* Returns where the shapes of a kind begin, in GLSL. */

@@ -104,7 +104,8 @@ static void place_objects(struct kiln_backdrop_inputs *inputs)
     for (int i = 0; i < LAMPS; i++) {
         b->lights[i].position_radius2 = place(5.0, 0.0);
         b->lights[i].color.w = (float)between(0.01, 0.5);
-        b->lights[i].casters.x = (1u << OBJECTS) - 1;
+        b->lights[i].casters.x = 1;
+        b->lights[i].hiders[0].x = (1u << OBJECTS) - 1;
         if (i % 2 == 0)
             continue;
         b->lights[i].facing = axis(KILN_LAMP_RECTANGLE);
@@ -213,11 +214,11 @@ static void no_caster_is_left_out(void **state)
         const struct kiln_lit_box box = random_box(trial);
         const struct kiln_casters casters = find_casters(&scene.frame, &box);
         const uint32_t sun = met_on_ways(&scene.inputs, &box, NULL);
-        assert_int_equal(sun & ~casters.sun_objects, 0);
+        assert_int_equal(sun & ~casters.sun_objects.words[0], 0);
         for (int i = 0; i < LAMPS; i++) {
             const uint32_t met = met_on_ways(&scene.inputs, &box, &scene.inputs.block.lights[i]);
-            assert_int_equal(met & ~casters.lamps[i], 0);
-            kept += __builtin_popcount(casters.lamps[i]);
+            assert_int_equal(met & ~casters.lamps[i].words[0], 0);
+            kept += __builtin_popcount(casters.lamps[i].words[0]);
             all += OBJECTS;
         }
     }
@@ -244,7 +245,8 @@ static struct ray_point random_points(const struct kiln_lit_box *box)
 /* Computes what points see of a lamp that they face. Not inline: the compiler would warn that there
  * are no maps to read. */
 static __attribute__((noinline)) void see_lamp(const struct kiln_lamp_objects *objects,
-                                               const struct kiln_draw_light *lamp, uint32_t casters,
+                                               const struct kiln_draw_light *lamp,
+                                               const struct kiln_shape_set *casters,
                                                const struct ray_point *p, vf *seen)
 {
     const struct vf3 towards = vf3_towards(lamp->position_radius2, p->at);
@@ -267,8 +269,8 @@ static void what_is_seen_of_lamps_stays(void **state)
             const struct kiln_draw_light *lamp = &scene.inputs.block.lights[i % LAMPS];
             const struct ray_point p = random_points(&box);
             vf all, found;
-            see_lamp(&objects, lamp, scene.all.lamps[i % LAMPS], &p, &all);
-            see_lamp(&objects, lamp, casters.lamps[i % LAMPS], &p, &found);
+            see_lamp(&objects, lamp, &scene.all.lamps[i % LAMPS], &p, &all);
+            see_lamp(&objects, lamp, &casters.lamps[i % LAMPS], &p, &found);
             for (int lane = 0; lane < LANES; lane++)
                 assert_float_equal(all[lane], found[lane], 1e-6f);
         }
@@ -310,9 +312,9 @@ static void nothing_hides_light_from_nothing(void **state)
     const struct lit_vectors none = no_lit_vectors();
     const struct kiln_lit_box box = lit_box_of(&none);
     const struct kiln_casters casters = find_casters(&scene.frame, &box);
-    assert_int_equal(casters.sun_objects, 0);
+    assert_false(kiln_shape_set_any(&casters.sun_objects));
     for (int i = 0; i < LAMPS; i++)
-        assert_int_equal(casters.lamps[i], 0);
+        assert_false(kiln_shape_set_any(&casters.lamps[i]));
 }
 
 int main(void)

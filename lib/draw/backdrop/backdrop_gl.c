@@ -7,6 +7,7 @@
  * pass makes no use of what it reads, and nobody reads what the second pass draws. */
 #include "draw/backdrop/backdrop_gl.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "asset/image/texture.h"
@@ -27,7 +28,9 @@ struct kiln_backdrop_gl {
     GLuint program;
     GLuint vertex_array;
     struct kiln_draw_blocks blocks;
-    struct kiln_buffer shapes_buffer;
+    struct kiln_buffer shapes_buffer; /* the uniform block */
+    struct kiln_buffer stored_shapes; /* all shapes, where the block has no room */
+    bool stores_shapes;
     struct kiln_meshes_gl *meshes;
     struct kiln_texture floor_image, sky_image;
 };
@@ -35,6 +38,7 @@ struct kiln_backdrop_gl {
 static bool create_program(struct kiln_backdrop_gl *stage, struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(stage->scene);
+    stage->stores_shapes = features.stored;
     char defines[KILN_SHAPE_DEFINES];
     kiln_shape_defines(&features, defines);
     const struct kiln_program_params params = {.vertex = "draw/backdrop/backdrop.vert",
@@ -92,7 +96,12 @@ struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
     }
     glGenVertexArrays(1, &stage->vertex_array);
     kiln_draw_blocks_init(&stage->blocks, device);
-    kiln_buffer_init(&stage->shapes_buffer, device, sizeof(struct kiln_draw_shapes), "shapes");
+    kiln_buffer_init(&stage->shapes_buffer, device,
+                     offsetof(struct kiln_draw_shapes, shapes) +
+                         KILN_BLOCK_SHAPES * sizeof(struct kiln_draw_shape),
+                     "shapes");
+    kiln_buffer_init(&stage->stored_shapes, device,
+                     KILN_MAX_OBJECTS * sizeof(struct kiln_draw_shape), "stored shapes");
     return stage;
 }
 
@@ -109,6 +118,7 @@ void kiln_backdrop_gl_destroy(struct kiln_backdrop_gl **gl)
     glDeleteVertexArrays(1, &s->vertex_array);
     kiln_draw_blocks_finish(&s->blocks);
     kiln_buffer_finish(&s->shapes_buffer);
+    kiln_buffer_finish(&s->stored_shapes);
     kiln_meshes_gl_destroy(&s->meshes);
     kiln_texture_finish(&s->floor_image);
     kiln_texture_finish(&s->sky_image);
@@ -169,15 +179,29 @@ static bool cast(struct kiln_backdrop_gl *stage, const struct kiln_draw_shapes *
     return true;
 }
 
+/* Uploads the shapes and binds them. The uniform block has the first of them. */
+static bool bind_shapes(struct kiln_backdrop_gl *gl, const struct kiln_draw_shapes *shapes,
+                        struct kiln_error *error)
+{
+    const GLuint block = kiln_buffer_upload(&gl->shapes_buffer, shapes, error);
+    if (!block)
+        return false;
+    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_SHAPES, block);
+    if (!gl->stores_shapes)
+        return true;
+    const GLuint stored = kiln_buffer_upload(&gl->stored_shapes, shapes->shapes, error);
+    if (stored)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_STORED_SHAPES, stored);
+    return stored != 0;
+}
+
 bool kiln_backdrop_gl_draw(struct kiln_backdrop_gl *gl, const struct kiln_backdrop_inputs *inputs,
                            bool is_current, struct kiln_error *error)
 {
     if (!kiln_draw_blocks_bind(&gl->blocks, &inputs->view, &inputs->block, error))
         return false;
-    GLuint shapes = kiln_buffer_upload(&gl->shapes_buffer, &inputs->shapes, error);
-    if (!shapes)
+    if (!bind_shapes(gl, &inputs->shapes, error))
         return false;
-    glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_SHAPES, shapes);
     bind_picture(KILN_UNIT_SKY, &gl->sky_image);
     kiln_meshes_gl_bind_shadows(gl->meshes);
     return is_current ||

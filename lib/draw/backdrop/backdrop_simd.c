@@ -14,15 +14,15 @@ static_assert((int)KILN_CACHE_COLUMNS == (int)GRID_STEP, "the cache has the vect
 /* ---- rows ------------------------------------------------------------------------------------ */
 
 /* Returns the shapes that may be visible in TILE + 1 rows from y, in `width` columns from x. */
-static uint32_t find_shapes(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
-                            uint32_t width)
+static struct kiln_shape_set find_shapes(const struct kiln_backdrop_picture *p, uint32_t x,
+                                         uint32_t y, uint32_t width)
 {
     const int32_t left = (int32_t)x, top = (int32_t)y, right = left + (int32_t)width;
-    uint32_t shapes = 0;
+    struct kiln_shape_set shapes = kiln_shape_set_empty(p->frame->shapes->counts.x);
     for (uint32_t i = 0; i < p->frame->shapes->counts.x; i++) {
         const struct kiln_pixel_box *b = &p->boxes[i];
         if (b->x_from < right && b->x_to > left && b->y_from <= top + TILE && b->y_to > top)
-            shapes |= 1u << i;
+            kiln_shape_set_add(&shapes, i);
     }
     return shapes;
 }
@@ -32,9 +32,9 @@ static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture 
                                              const struct kiln_casters *casters)
 {
     const struct kiln_draw_backdrop *b = p->frame->backdrop;
-    struct grid_lights lights = {.sky = kiln_shapes_under_sky(p->frame->shapes) > 0};
+    struct grid_lights lights = {.sky = kiln_shapes_hide_sky(p->frame->shapes)};
     for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (casters->lamps[i] | b->lights[i].casters.y)
+        if (b->lights[i].casters.y || kiln_shape_set_any(&casters->lamps[i]))
             kiln_bits_add(lights.lamps.words, i);
     }
     if (p->use == KILN_CACHE_FILLED)
@@ -54,14 +54,15 @@ SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, co
     }
     const struct ray reflected = {at, floor_reflection_along(frame, ray).at.direction};
     const struct ray_place nowhere = {.layer = -1};
-    const uint32_t shapes = all_shapes(frame);
-    const struct ray_hit seen = trace(frame, shapes, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
+    const struct kiln_shape_set shapes = all_shapes(frame);
+    const struct ray_hit seen = trace(frame, &shapes, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
     place_nodes(first, &seen, ray_at(&reflected, seen.t), floor, mirrored);
 }
 
 /* Places the nodes of the strip at (x, y), and of its reflections (NULL: none). */
-static void place_grids(const struct kiln_backdrop_picture *p, uint32_t shapes, uint32_t x,
-                        uint32_t y, struct light_grid *grid, struct light_grid *mirrored)
+static void place_grids(const struct kiln_backdrop_picture *p, const struct kiln_shape_set *shapes,
+                        uint32_t x, uint32_t y, struct light_grid *grid,
+                        struct light_grid *mirrored)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
@@ -151,9 +152,9 @@ static struct kiln_lit_box *box_in_cache(const struct kiln_surface_cache *cache,
 
 /* Finds what the pixels of the strip at (x, y) show. Returns a box around it and the grid's nodes
  * (NULL: none). */
-static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p, uint32_t shapes,
-                                       uint32_t x, uint32_t y, const struct light_grid *grid,
-                                       struct strip_hits *strip)
+static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
+                                       const struct kiln_shape_set *shapes, uint32_t x, uint32_t y,
+                                       const struct light_grid *grid, struct strip_hits *strip)
 {
     struct lit_vectors lit = no_lit_vectors();
     for (int i = 0; grid && i < GRID_NODES; i += LANES)
@@ -222,11 +223,11 @@ static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
         struct light_grid *grid = has_grid ? &room : NULL;
         struct light_grid *mirrored = has_grid && frame.floor_gloss ? &mirrored_room : NULL;
         /* with a column and a row more, for the nodes */
-        const uint32_t shapes = find_shapes(whole, x, y, STRIP + 1);
+        const struct kiln_shape_set shapes = find_shapes(whole, x, y, STRIP + 1);
         if (grid)
-            place_grids(whole, shapes, x, y, grid, mirrored);
+            place_grids(whole, &shapes, x, y, grid, mirrored);
         if (whole->use != KILN_CACHE_FILLED)
-            *lit = trace_strip(whole, shapes, x, y, grid, &strip);
+            *lit = trace_strip(whole, &shapes, x, y, grid, &strip);
         const struct kiln_casters casters = find_casters(whole->frame, lit);
         frame.casters = &casters;
         if (grid) {
@@ -279,7 +280,7 @@ static void light_cached_edges(const struct kiln_backdrop_picture *p,
                                const struct kiln_cached_edges *edges, uint32_t count)
 {
     const struct kiln_surface_cache *cache = p->cache;
-    const uint32_t none = 0;
+    const struct kiln_shape_set none = kiln_shape_set_empty(0);
     for (uint32_t k = 0; k < count; k++) {
         vi column, row;
         memcpy(&column, edges->columns + (size_t)k * LANES, sizeof column);
@@ -291,7 +292,7 @@ static void light_cached_edges(const struct kiln_backdrop_picture *p,
         if (!any(edge))
             continue;
         const struct cached_rays cached = cached_samples(cache, edges, k, KILN_CACHE_FILLED);
-        antialias_cached(p, none, column, row, edge, &cached);
+        antialias_cached(p, &none, column, row, edge, &cached);
     }
 }
 
@@ -310,7 +311,7 @@ static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, 
 {
     if (count == 0)
         return;
-    const uint32_t shapes = find_shapes(p, x, y, EDGE_STRIP);
+    const struct kiln_shape_set shapes = find_shapes(p, x, y, EDGE_STRIP);
     for (int i = 1; i < LANES; i++) { /* the last vector repeats its last pixel */
         at[0][count - 1 + i] = at[0][count - 1];
         at[1][count - 1 + i] = at[1][count - 1];
@@ -321,11 +322,11 @@ static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, 
         const vi column = vi_load(at[0] + i), row = vi_load(at[1] + i);
         if (!add_to_cache(p->cache, edges, column, row, &cached))
             break;
-        antialias_cached(p, shapes, column, row, vi_count() < count - i, &cached);
+        antialias_cached(p, &shapes, column, row, vi_count() < count - i, &cached);
     }
     for (; i < count; i += SAMPLED_PIXELS) {
         const int some = count - i < SAMPLED_PIXELS ? count - i : SAMPLED_PIXELS;
-        antialias_together(p, shapes, some, at[0] + i, at[1] + i);
+        antialias_together(p, &shapes, some, at[0] + i, at[1] + i);
     }
 }
 

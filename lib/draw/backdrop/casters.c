@@ -57,5 +57,5 @@ void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_ob
     casters->sun_objects = kiln_shapes_that_hide(&inputs->shapes);
     casters->sun_meshes = (1u << inputs->shapes.counts.z) - 1;
     for (uint32_t i = 0; i < b->counts.y; i++)
-        casters->lamps[i] = b->lights[i].casters.x;
+        casters->lamps[i] = kiln_shape_set_of_lamp(&b->lights[i], inputs->shapes.counts.x);
 }

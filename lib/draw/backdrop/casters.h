@@ -8,6 +8,7 @@
 
 #include "base/bits.h"
 #include "draw/backdrop/backdrop_inputs.h"
+#include "draw/moment/shape_set.h"
 
 /* The most lamps of a picture: those of the scene, and of fire. */
 enum { KILN_MOST_LAMPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS };
@@ -35,15 +36,16 @@ static inline struct kiln_lamp_set kiln_lamps_without(const struct kiln_lamp_set
     return left;
 }
 
-/* Objects have a bit each, in the order of kiln_draw_light.casters.x, and so have meshes. */
+/* Holds what may hide lights. A mesh has a bit. */
 struct kiln_casters {
-    uint32_t lamps[KILN_MOST_LAMPS]; /* by lamp: objects */
-    uint32_t sun_objects, sun_meshes;
+    struct kiln_shape_set lamps[KILN_MOST_LAMPS]; /* by lamp, those of the picture */
+    struct kiln_shape_set sun_objects;
+    uint32_t sun_meshes;
 };
 
 enum {
-    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS, /* the first mesh among the bounds */
-    KILN_BOUNDS_ROOM = 48,                 /* whole vectors */
+    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS,    /* the first mesh among the bounds */
+    KILN_BOUNDS_ROOM = KILN_MAX_OBJECTS + 16, /* whole vectors */
 };
 
 static_assert(KILN_MAX_OBJECTS + KILN_MAX_MESHES <= KILN_BOUNDS_ROOM, "all casters have room");

@@ -31,10 +31,10 @@ struct kiln_ray_frame {
     bool floor_gloss;
 };
 
-/* Returns a bit for each shape of a frame. */
-static inline uint32_t all_shapes(const struct kiln_ray_frame *frame)
+/* Returns all shapes of a frame. */
+static inline struct kiln_shape_set all_shapes(const struct kiln_ray_frame *frame)
 {
-    return (uint32_t)((1ull << frame->shapes->counts.x) - 1);
+    return kiln_shape_set_all(frame->shapes->counts.x);
 }
 
 #endif

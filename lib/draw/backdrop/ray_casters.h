@@ -163,20 +163,42 @@ SIMD uint32_t find_met(const struct swept_box *swept, const struct kiln_object_b
     return met;
 }
 
+/* Returns the trimmed set of those shapes that a swept box meets. */
+SIMD struct kiln_shape_set find_shapes_met(const struct kiln_shape_set *shapes,
+                                           const struct swept_box *swept,
+                                           const struct kiln_object_bounds *bounds)
+{
+    struct kiln_shape_set met;
+    met.count = shapes->count;
+    for (uint32_t i = 0; i < shapes->count; i++) {
+        const int first = 32 * (int)i;
+        met.words[i] = shapes->words[i];
+        if (met.words[i])
+            met.words[i] &= find_met(swept, bounds, first, first + 32);
+    }
+    kiln_shape_set_trim(&met);
+    return met;
+}
+
 /* Finds what may hide lights from points in a box. */
 SIMD struct kiln_casters find_casters(const struct kiln_ray_frame *frame,
                                       const struct kiln_lit_box *box)
 {
-    struct kiln_casters casters = {.sun_objects = 0};
+    struct kiln_casters casters;
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    const struct kiln_shape_set none = kiln_shape_set_empty(0);
+    casters.sun_objects = none;
+    casters.sun_meshes = 0;
+    for (uint32_t i = 0; i < b->counts.y; i++)
+        casters.lamps[i] = none;
     if (!(box->from[0] <= box->to[0]))
         return casters;
-    const struct kiln_draw_backdrop *b = frame->backdrop;
     const struct kiln_casters *all = frame->all_casters;
     const struct kiln_object_bounds *bounds = frame->object_bounds;
     const float spread = frame->shapes->sun_right.w;
-    if (all->sun_objects) {
+    if (kiln_shape_set_any(&all->sun_objects)) {
         const struct swept_box swept = sweep_to_sun(box, b->sun_direction, CASTER_WIDER * spread);
-        casters.sun_objects = all->sun_objects & find_met(&swept, bounds, 0, KILN_BOUNDS_MESHES);
+        casters.sun_objects = find_shapes_met(&all->sun_objects, &swept, bounds);
     }
     if (all->sun_meshes) {
         const struct swept_box swept =
@@ -188,10 +210,10 @@ SIMD struct kiln_casters find_casters(const struct kiln_ray_frame *frame,
         const float4 lamp = b->lights[i].position_radius2;
         const float extent = lamp_extent(&b->lights[i]);
         casters.lamps[i] = all->lamps[i];
-        if (!all->lamps[i] || is_near_lamp(box, lamp, extent))
+        if (!kiln_shape_set_any(&all->lamps[i]) || is_near_lamp(box, lamp, extent))
             continue;
         const struct swept_box swept = sweep_to_lamp(box, lamp, extent);
-        casters.lamps[i] &= find_met(&swept, bounds, 0, KILN_BOUNDS_MESHES);
+        casters.lamps[i] = find_shapes_met(&all->lamps[i], &swept, bounds);
     }
     return casters;
 }

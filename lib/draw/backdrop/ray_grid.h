@@ -108,7 +108,7 @@ SIMD void light_nodes(const struct kiln_ray_frame *frame, uint32_t i, int first,
         (vf_load(grid->surface + first) >= 0.0f) & (lamp_irradiance(*lamp, towards, normal) > 0.0f);
     struct light_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
     if (any(faces))
-        lit = lamp_receiver_of(&frame->lamp_objects, lamp, frame->casters->lamps[i],
+        lit = lamp_receiver_of(&frame->lamp_objects, lamp, &frame->casters->lamps[i],
                                vf3_add_scaled(at, normal, vf_all(LIGHT_START)), normal, NULL,
                                vf_all(0.0f), faces);
     vf_store(grid->seen[i] + first, vf_select(faces, lit.visible, vf_all(-1.0f)));
@@ -161,13 +161,15 @@ SIMD vi casts_sharply(const struct kiln_draw_shape *shape, struct vf3 towards,
 /* Returns the lanes of a mask where all shapes cast smooth shadows on a block of a surface.
  * casters: those that may hide the lamp; size: of the block, m. */
 SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
-                             const struct kiln_draw_light *lamp, uint32_t casters, struct vf3 at,
-                             struct vf3 normal, vf size, vi smooth)
+                             const struct kiln_draw_light *lamp,
+                             const struct kiln_shape_set *casters, struct vf3 at, struct vf3 normal,
+                             vf size, vi smooth)
 {
     const struct light_way way =
         lamp_way_of(vf3_towards(lamp->position_radius2, at), lamp->color.w, size);
-    for (; casters && any(smooth); casters &= casters - 1) {
-        const struct kiln_draw_shape *shape = &objects->shapes->shapes[__builtin_ctz(casters)];
+    struct kiln_shape_walk walk = kiln_shape_walk_begin(casters);
+    while (any(smooth) && kiln_shape_walk_next(&walk)) {
+        const struct kiln_draw_shape *shape = &objects->shapes->shapes[walk.shape];
         const struct vf3 towards = vf3_towards(shape->center, at);
         const vi near = smooth & light_meets_sphere(way, towards, shape->center.w);
         if (any(near))
@@ -239,8 +241,8 @@ SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first,
             continue;
         const struct kiln_draw_light *lamp = &b->lights[i];
         vi smooth = alike;
-        const uint32_t casters = frame->casters->lamps[i];
-        if (casters && any(smooth))
+        const struct kiln_shape_set *casters = &frame->casters->lamps[i];
+        if (kiln_shape_set_any(casters) && any(smooth))
             smooth = shapes_cast_smoothly(&frame->lamp_objects, lamp, casters, at, normal,
                                           vf_sqrt(size2), smooth);
         memcpy(grid->smooth[i] + first, &smooth, sizeof smooth);

@@ -63,7 +63,7 @@ SIMD vf find_lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const str
     if (!any(active))
         return vf_select(known, seen, vf_all(1.0f));
     const struct ray_point *p = &s->point;
-    const vf found = lamp_visibility(&frame->lamp_objects, lamp, frame->casters->lamps[i],
+    const vf found = lamp_visibility(&frame->lamp_objects, lamp, &frame->casters->lamps[i],
                                      vf3_add_scaled(p->at, p->normal, vf_all(LIGHT_START)),
                                      p->normal, s->middle, vf_all(0.0f), active);
     return vf_select(known, seen, found);
@@ -98,7 +98,7 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, uint32_t i, const struct 
     const vf cone = lamp_cone(*lamp, towards);
     const struct ray_point lit = {p->at, p->normal, faces & (cone > 0.0f)};
     vf seen = cone * past_smoke(frame, i, &lit, s->grid);
-    if (frame->casters->lamps[i] | lamp->casters.y && any(lit.active))
+    if ((lamp->casters.y || kiln_shape_set_any(&frame->casters->lamps[i])) && any(lit.active))
         seen *= lamp_seen(frame, i, s, lit.active);
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
     arrived->all += all;

@@ -106,9 +106,9 @@ SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_p
 }
 
 /* Returns the number of a mesh as a surface. */
-SIMD vf surface_of_mesh(vi mesh)
+SIMD vf surface_of_mesh(const struct kiln_ray_frame *frame, vi mesh)
 {
-    return vf_of(mesh * 4 + KILN_SURFACE_MESHES);
+    return vf_of(mesh * 4 + (int32_t)frame->shapes->counts.y);
 }
 
 SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_place *at,
@@ -125,7 +125,7 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     const int stride = (int)(sizeof frame->shapes->meshes[0] / sizeof(float));
     vi index = found.mesh * stride;
     nearest->t = vf_select(nearer, found.depth, nearest->t);
-    nearest->surface = vf_select(nearer, surface_of_mesh(found.mesh), nearest->surface);
+    nearest->surface = vf_select(nearer, surface_of_mesh(frame, found.mesh), nearest->surface);
     nearest->normal = vf3_select(nearer, found.normal, nearest->normal);
     struct vf3 albedo = {vf_gather(colors, index), vf_gather(colors + 1, index),
                          vf_gather(colors + 2, index)};
@@ -155,7 +155,7 @@ SIMD void add_side_hits(struct side_hits *hits, vi mask, vi triangle, const stru
 
 /* Returns the pixels with a sample on another mesh than their centre, at another depth, or with
  * another normal. middle: what the rays through the centres hit. */
-SIMD vi find_bends(const struct kiln_mesh_view *meshes, struct side_hits *hits,
+SIMD vi find_bends(const struct kiln_ray_frame *frame, struct side_hits *hits,
                    const struct ray_hit *middle)
 {
     _Alignas(64) float t[LANES], surface[LANES], normal[3][LANES];
@@ -172,12 +172,12 @@ SIMD vi find_bends(const struct kiln_mesh_view *meshes, struct side_hits *hits,
     vf_store(hits->v + hits->count, vf_all(0.0f));
     for (int i = 0; i < hits->count; i += LANES) {
         const struct ray_place at = {.u = vf_load(hits->u + i), .v = vf_load(hits->v + i)};
-        const struct ray_mesh_hit hit = find_mesh(meshes, vi_load(hits->triangle + i), &at);
+        const struct ray_mesh_hit hit = find_mesh(frame->meshes, vi_load(hits->triangle + i), &at);
         const vi lane = vi_load(hits->lane + i);
         const vf depth = vf_gather(t, lane);
         const struct vf3 of_middle = {vf_gather(normal[0], lane), vf_gather(normal[1], lane),
                                       vf_gather(normal[2], lane)};
-        const vi bent = (surface_of_mesh(hit.mesh) != vf_gather(surface, lane)) |
+        const vi bent = (surface_of_mesh(frame, hit.mesh) != vf_gather(surface, lane)) |
                         (vf_abs(hit.depth - depth) > 0.01f * depth) |
                         (vf3_dot(hit.normal, of_middle) < 0.95f);
         memcpy(found, &bent, sizeof found);

@@ -33,7 +33,8 @@ struct sample_pieces {
     vi of[SAMPLES];
 };
 
-SIMD struct placed_hit trace_place(const struct kiln_ray_frame *frame, uint32_t shapes,
+SIMD struct placed_hit trace_place(const struct kiln_ray_frame *frame,
+                                   const struct kiln_shape_set *shapes,
                                    const struct ray_place *place)
 {
     const struct ray ray = rays_at(frame, place).ray;
@@ -55,7 +56,8 @@ SIMD vi share_piece(const struct placed_hit *a, const struct placed_hit *b)
 
 /* Traces the samples of pixels, and finds the pieces that they are on. center: the rays through
  * the centres of the pixels. */
-SIMD struct sample_pieces trace_samples(const struct kiln_ray_frame *frame, uint32_t shapes,
+SIMD struct sample_pieces trace_samples(const struct kiln_ray_frame *frame,
+                                        const struct kiln_shape_set *shapes,
                                         const struct ray_place *center,
                                         struct placed_hit samples[SAMPLES])
 {
@@ -237,7 +239,8 @@ SIMD void light_samples(const struct kiln_ray_frame *frame, struct shared_sample
 
 /* Antialiases up to SAMPLED_PIXELS pixels, in whole vectors; of the last one, only the first lanes
  * are written. */
-static void antialias_together(const struct kiln_backdrop_picture *p, uint32_t shapes, int count,
+static void antialias_together(const struct kiln_backdrop_picture *p,
+                               const struct kiln_shape_set *shapes, int count,
                                const int32_t *columns, const int32_t *rows)
 {
     struct shared_samples all;
@@ -270,7 +273,8 @@ static void antialias_together(const struct kiln_backdrop_picture *p, uint32_t s
 /* ---- pixels in the cache --------------------------------------------------------------------- */
 
 /* Returns the pieces of samples that are in the cache, or finds them and puts them in. */
-SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame, uint32_t shapes,
+SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
+                                             const struct kiln_shape_set *shapes,
                                              const struct ray_place *center,
                                              const struct cached_rays *first)
 {
@@ -293,8 +297,9 @@ SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
 
 /* Antialiases LANES pixels whose samples are in the cache, or get into it; then each gets light, so
  * that its planes are filled. first: planes of the first sample. */
-SIMD_ONCE void antialias_cached(const struct kiln_backdrop_picture *p, uint32_t shapes, vi column,
-                                vi row, vi active, const struct cached_rays *first)
+SIMD_ONCE void antialias_cached(const struct kiln_backdrop_picture *p,
+                                const struct kiln_shape_set *shapes, vi column, vi row, vi active,
+                                const struct cached_rays *first)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi pixel = row * (int32_t)p->width + column;

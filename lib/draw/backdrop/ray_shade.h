@@ -54,9 +54,9 @@ SIMD void color_floor(const struct kiln_ray_frame *frame, const struct ray *ray,
 }
 
 /* Finds what rays from the eye, or reflected ones, hit. place->layer is -1 for the latter. */
-SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame, uint32_t shapes,
-                             const struct ray *ray, const struct ray_place *place,
-                             const struct cached_rays *cached)
+SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame,
+                             const struct kiln_shape_set *shapes, const struct ray *ray,
+                             const struct ray_place *place, const struct cached_rays *cached)
 {
     if (is_filled(cached))
         return read_cached_hit(cached);
@@ -77,7 +77,7 @@ SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct r
         return;
     struct kiln_ray_frame all = *frame;
     all.casters = frame->all_casters;
-    const uint32_t shapes = all_shapes(frame);
+    const struct kiln_shape_set shapes = all_shapes(frame);
     const struct ray_reflection *m = &shaded->mirror;
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
@@ -89,8 +89,8 @@ SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct r
                                       eye->pixels->row};
         help.pixels = &pixels;
     }
-    struct shaded_rays reflection = {.first =
-                                         find_hit(&all, shapes, &reflected, &nowhere, help.cached)};
+    struct shaded_rays reflection = {
+        .first = find_hit(&all, &shapes, &reflected, &nowhere, help.cached)};
     KILN_SIMD_NAME(kiln_rays_light)(&all, &reflected, false, &help, &reflection);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);

@@ -33,12 +33,13 @@ SIMD void keep_nearer(struct ray_hit *nearest, vi nearer, vf t, vf surface, stru
     nearest->albedo = vf3_select(nearer, vf3_all(albedo), nearest->albedo);
 }
 
-/* shapes: a bit for each shape that the rays may hit. */
-SIMD void trace_shapes(const struct kiln_ray_frame *frame, uint32_t shapes, const struct ray *ray,
-                       struct ray_hit *nearest)
+/* shapes: those that the rays may hit. */
+SIMD void trace_shapes(const struct kiln_ray_frame *frame, const struct kiln_shape_set *shapes,
+                       const struct ray *ray, struct ray_hit *nearest)
 {
-    for (; shapes; shapes &= shapes - 1) {
-        const int i = __builtin_ctz(shapes);
+    struct kiln_shape_walk walk = kiln_shape_walk_begin(shapes);
+    while (kiln_shape_walk_next(&walk)) {
+        const int i = (int)walk.shape;
         const struct kiln_draw_shape *shape = &frame->shapes->shapes[i];
         switch (shape->kind.x) {
 #define TRACE(KIND, name)                                                                          \

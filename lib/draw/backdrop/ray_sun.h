@@ -238,7 +238,7 @@ SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_re
                                .visible = vf_all(1.0f),
                                .way = sun_way_of(frame->backdrop->sun_direction,
                                                  frame->shapes->sun_right.w, vf_all(0.0f))};
-    hide_by_shapes(frame->shapes, frame->casters->sun_objects, &r);
+    hide_by_shapes(frame->shapes, &frame->casters->sun_objects, &r);
     vf visible = r.visible;
     uint32_t meshes = frame->casters->sun_meshes;
     for (; meshes; meshes &= meshes - 1)

@@ -65,11 +65,12 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
 
 /* Finds the first hit of each ray. floor: the t at which each ray meets the floor; the albedo of
  * hits on the floor is left unset. */
-void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame, uint32_t shapes,
-                                     const struct ray *ray, const vf *floor,
-                                     const struct ray_place *place, struct ray_hit *found);
+void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame,
+                                     const struct kiln_shape_set *shapes, const struct ray *ray,
+                                     const vf *floor, const struct ray_place *place,
+                                     struct ray_hit *found);
 
-SIMD struct ray_hit trace(const struct kiln_ray_frame *frame, uint32_t shapes,
+SIMD struct ray_hit trace(const struct kiln_ray_frame *frame, const struct kiln_shape_set *shapes,
                           const struct ray *ray, vf floor, const struct ray_place *place)
 {
     struct ray_hit nearest;

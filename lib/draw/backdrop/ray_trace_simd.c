@@ -2,9 +2,10 @@
 #include "draw/backdrop/ray_mesh.h"
 #include "draw/backdrop/ray_trace.h"
 
-void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame, uint32_t shapes,
-                                     const struct ray *ray, const vf *floor,
-                                     const struct ray_place *place, struct ray_hit *found)
+void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame,
+                                     const struct kiln_shape_set *shapes, const struct ray *ray,
+                                     const vf *floor, const struct ray_place *place,
+                                     struct ray_hit *found)
 {
     struct ray_hit nearest = {.t = vf_all(RAY_FAR),
                               .surface = vf_all(-1.0f),
@@ -26,7 +27,7 @@ void KILN_SIMD_NAME(kiln_rays_mark_edges)(const struct kiln_ray_frame *frame,
                                           vf *surface)
 {
     *surface = middle->surface;
-    const vi seen = *surface >= (float)KILN_SURFACE_MESHES;
+    const vi seen = *surface >= (float)frame->shapes->counts.y;
     if (!any(seen))
         return;
     const vi center = read_hit(frame->meshes, at, 0);
@@ -41,6 +42,6 @@ void KILN_SIMD_NAME(kiln_rays_mark_edges)(const struct kiln_ray_frame *frame,
         add_side_hits(&hits, other & (triangle >= 0), triangle, &aside);
     }
     if (hits.count > 0)
-        edge |= find_bends(frame->meshes, &hits, middle);
+        edge |= find_bends(frame, &hits, middle);
     *surface += vf_where(edge, vf_all(0.25f * KILN_EDGE_MARK));
 }

@@ -5,6 +5,7 @@
 #include "draw/light/lamps.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "shared/exact.h"
 #include "shared/shapes.h"
@@ -37,17 +38,18 @@ static bool is_behind(const struct kiln_draw_light *light, const struct kiln_dra
     return float3_dot(from, xyz(light->facing)) + reach < RECTANGLE_SLACK;
 }
 
-/* Returns the bits of the shapes that may hide a light. */
-static uint32_t find_casters(const struct kiln_draw_shapes *shapes,
-                             const struct kiln_draw_light *light)
+/* Returns the trimmed set of the shapes that may hide a light. */
+static struct kiln_shape_set find_casters(const struct kiln_draw_shapes *shapes,
+                                          const struct kiln_draw_light *light)
 {
-    uint32_t casters = kiln_shapes_that_hide(shapes);
+    struct kiln_shape_set casters = kiln_shapes_that_hide(shapes);
     for (uint32_t i = 0; i < shapes->counts.x; i++) {
         const struct kiln_draw_shape *shape = &shapes->shapes[i];
         const float3 from = float3_sub(xyz(light->position_radius2), xyz(shape->center));
         if (contains(shape, from) || is_behind(light, shape))
-            casters &= ~(1u << i);
+            kiln_shape_set_remove(&casters, i);
     }
+    kiln_shape_set_trim(&casters);
     return casters;
 }
 
@@ -165,7 +167,9 @@ void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_
         if (!light->casters.x)
             continue;
         const float part = part_above_planes(moment, light);
-        light->casters.x = find_casters(&moment->shapes, light);
+        const struct kiln_shape_set casters = find_casters(&moment->shapes, light);
+        memcpy(light->hiders, casters.words, casters.count * sizeof *casters.words);
+        light->casters.x = kiln_shape_set_any(&casters);
         light->color.x *= part;
         light->color.y *= part;
         light->color.z *= part;

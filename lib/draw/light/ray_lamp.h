@@ -114,12 +114,13 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
 /* ---- lamps ----------------------------------------------------------------------------------- */
 
 /* Computes what points or balls see of a lamp: `visible`, 0 to 1. casters: the objects that may
- * hide it from them, some or all of lamp->casters.x; normal: of the surface, unit; middle: of the
+ * hide it from them, some or all of lamp->hiders; normal: of the surface, unit; middle: of the
  * solid particles that the points are on, or NULL; lit: radius of the balls, m; 0 for points. */
 SIMD struct light_receiver lamp_receiver_of(const struct kiln_lamp_objects *objects,
-                                            const struct kiln_draw_light *lamp, uint32_t casters,
-                                            struct vf3 origin, struct vf3 normal,
-                                            const struct vf3 *middle, vf lit, vi active)
+                                            const struct kiln_draw_light *lamp,
+                                            const struct kiln_shape_set *casters, struct vf3 origin,
+                                            struct vf3 normal, const struct vf3 *middle, vf lit,
+                                            vi active)
 {
     struct light_receiver r = {
         .origin = origin, .active = active, .visible = vf_all(1.0f), .blur = vf_all(1e6f)};
@@ -135,7 +136,7 @@ SIMD struct light_receiver lamp_receiver_of(const struct kiln_lamp_objects *obje
 }
 
 SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
-                        uint32_t casters, struct vf3 origin, struct vf3 normal,
+                        const struct kiln_shape_set *casters, struct vf3 origin, struct vf3 normal,
                         const struct vf3 *middle, vf lit, vi active)
 {
     return lamp_receiver_of(objects, lamp, casters, origin, normal, middle, lit, active).visible;

@@ -36,7 +36,7 @@ void KILN_SIMD_NAME(kiln_sun_shade_block)(const struct kiln_draw_shapes *shapes,
                                           float visible[KILN_LANES])
 {
     const float4 towards = {sun->towards.x, sun->towards.y, sun->towards.z, 0.0f};
-    const uint32_t casters = kiln_shapes_that_hide(shapes);
+    const struct kiln_shape_set casters = kiln_shapes_that_hide(shapes);
     for (uint32_t first = 0; first < KILN_LANES; first += LANES) {
         const struct balls balls = load_balls(block, first);
         struct light_receiver r = {.origin = balls.at,
@@ -44,7 +44,7 @@ void KILN_SIMD_NAME(kiln_sun_shade_block)(const struct kiln_draw_shapes *shapes,
                                    .seen = from_sun,
                                    .active = balls.alive,
                                    .visible = vf_all(1.0f)};
-        hide_by_shapes(shapes, casters, &r);
+        hide_by_shapes(shapes, &casters, &r);
         memcpy(visible + first, &r.visible, sizeof r.visible);
     }
 }
@@ -63,7 +63,9 @@ void KILN_SIMD_NAME(kiln_lamp_shade_block)(const struct kiln_lamp_objects *objec
             if (lamp->casters.x | lamp->casters.y && any(balls.alive)) {
                 const struct vf3 towards =
                     vf3_normalize(vf3_towards(lamp->position_radius2, balls.at));
-                seen = lamp_visibility(objects, lamp, lamp->casters.x, balls.at, towards, NULL,
+                const struct kiln_shape_set casters =
+                    kiln_shape_set_of_lamp(lamp, objects->shapes->counts.x);
+                seen = lamp_visibility(objects, lamp, &casters, balls.at, towards, NULL,
                                        balls.radius, balls.alive);
             }
             word |= vi_of(seen * (float)KILN_LAMP_SHADE_ONE + 0.5f) << (int32_t)(8 * i);

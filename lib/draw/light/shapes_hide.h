@@ -6,6 +6,7 @@
 
 #include "base/real.h"
 #include "base/simd.h"
+#include "draw/moment/shape_set.h"
 #include "draw/moment/shapes_seen.h"
 #include "shared/light_cover.h"
 #include "shared/shape_layout.h"
@@ -29,15 +30,18 @@ SIMD void hide_light(struct light_receiver *r, vi near, vf cover)
     r->active &= r->visible > 0.0f;
 }
 
-void KILN_SIMD_NAME(kiln_shapes_hide)(const struct kiln_draw_shapes *shapes, uint32_t casters,
-                                      struct light_receiver *receiver);
+/* Hides a light by those of 32 shapes from `first` on whose bits are set in `casters`. */
+void KILN_SIMD_NAME(kiln_shapes_hide)(const struct kiln_draw_shapes *shapes, uint32_t first,
+                                      uint32_t casters, struct light_receiver *receiver);
 
-/* Hides a light by shapes. casters: a bit for each shape that may hide it. */
-SIMD void hide_by_shapes(const struct kiln_draw_shapes *shapes, uint32_t casters,
-                         struct light_receiver *receiver)
+/* Hides a light by shapes. casters: those that may hide it. */
+SIMD void hide_by_shapes(const struct kiln_draw_shapes *shapes,
+                         const struct kiln_shape_set *casters, struct light_receiver *receiver)
 {
-    if (casters)
-        KILN_SIMD_NAME(kiln_shapes_hide)(shapes, casters, receiver);
+    for (uint32_t i = 0; i < casters->count; i++) {
+        if (casters->words[i])
+            KILN_SIMD_NAME(kiln_shapes_hide)(shapes, 32 * i, casters->words[i], receiver);
+    }
 }
 
 #endif

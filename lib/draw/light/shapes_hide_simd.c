@@ -11,12 +11,12 @@ SIMD void broadcast(const struct kiln_shape_seen *seen, vf *to, size_t count)
 }
 
 /* seen_shapes: as of the receiver; apart from it, so that the compiler makes two loops. */
-SIMD void hide_by_each(const struct kiln_draw_shapes *shapes, uint32_t casters,
+SIMD void hide_by_each(const struct kiln_draw_shapes *shapes, uint32_t first, uint32_t casters,
                        const struct kiln_shape_seen *seen_shapes, struct light_receiver *receiver)
 {
     struct light_receiver r = *receiver;
     for (; casters && any(r.active); casters &= casters - 1) {
-        const int i = __builtin_ctz(casters);
+        const uint32_t i = first + (uint32_t)__builtin_ctz(casters);
         const struct kiln_draw_shape *shape = &shapes->shapes[i];
         const struct vf3 towards = vf3_towards(shape->center, r.origin);
         vi near = r.active & light_meets_sphere(r.way, towards, shape->center.w);
@@ -44,11 +44,11 @@ SIMD void hide_by_each(const struct kiln_draw_shapes *shapes, uint32_t casters,
     receiver->visible = r.visible;
 }
 
-void KILN_SIMD_NAME(kiln_shapes_hide)(const struct kiln_draw_shapes *shapes, uint32_t casters,
-                                      struct light_receiver *receiver)
+void KILN_SIMD_NAME(kiln_shapes_hide)(const struct kiln_draw_shapes *shapes, uint32_t first,
+                                      uint32_t casters, struct light_receiver *receiver)
 {
     if (receiver->seen)
-        hide_by_each(shapes, casters, receiver->seen, receiver);
+        hide_by_each(shapes, first, casters, receiver->seen, receiver);
     else
-        hide_by_each(shapes, casters, NULL, receiver);
+        hide_by_each(shapes, first, casters, NULL, receiver);
 }

@@ -7,12 +7,13 @@
 
 static_assert(sizeof(struct kiln_view) == 160, "std140");
 static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_light) == 144, "std140");
+static_assert(sizeof(struct kiln_draw_light) == 176, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112, "std140");
 static_assert(sizeof(struct kiln_draw_backdrop) ==
-                  208 + 144 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
+                  208 + 176 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
               "std140, and no padding, which the backdrop would compare");
+static_assert(sizeof(struct kiln_draw_backdrop) <= 16384, "what every GL allows a uniform block");
 
 void kiln_draw_blocks_init(struct kiln_draw_blocks *blocks, struct kiln_device *device)
 {

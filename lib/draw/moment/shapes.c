@@ -60,15 +60,19 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         .lamps = backdrop->light_count > 0 || kiln_scene_has_firelight(scene),
         .lamp_shadows = kiln_scene_shadow_lights(scene) > 0,
     };
+    uint32_t count = 0;
     for (uint32_t i = 0; i < backdrop->light_count; i++)
         features.rectangles |= backdrop->lights[i].kind == KILN_LIGHT_RECTANGLE;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
-        if (shape_of(object) < SHAPE_KINDS)
+        if (shape_of(object) < SHAPE_KINDS) {
             features.kinds |= 1u << shape_of(object);
+            count++;
+        }
         features.meshes |= kiln_object_is_mesh(object);
         features.paint |= kiln_object_takes_paint(object);
     }
+    features.stored = count > KILN_BLOCK_SHAPES;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         features.solids |= system->enabled && kiln_look_is_opaque(&system->look);
@@ -85,7 +89,8 @@ void kiln_shape_defines(const struct kiln_shape_features *features, char out[KIL
 #undef ROW_OF
     };
     int length = snprintf(
-        out, KILN_SHAPE_DEFINES, "%s%s%s%s%s%s%s%s%s%s%s%s",
+        out, KILN_SHAPE_DEFINES, "%s%s%s%s%s%s%s%s%s%s%s%s%s",
+        features->stored ? "#define SHAPES_STORED 1\n" : "",
         features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
         features->solids ? "#define SOLIDS 1\n" : "",
         features->instances ? "#define INSTANCES 1\n" : "",
@@ -300,6 +305,7 @@ static void fill_kinds(const struct kiln_scene *scene, float time_s,
     }
     static_assert(sizeof first == sizeof shapes->first, "as in GLSL");
     memcpy(shapes->first, first, sizeof first);
+    shapes->counts.y = KILN_SURFACE_MESHES(shapes->counts.x);
 }
 
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,

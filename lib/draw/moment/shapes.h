@@ -4,22 +4,24 @@
 #define KILN_DRAW_MOMENT_SHAPES_H
 
 #include "asset/geometry/mesh.h"
+#include "draw/moment/shape_set.h"
 #include "scene/scene.h"
 #include "shared/shape_layout.h"
 
 /* Holds the features of the shaders that a scene needs; each set of features is a shader variant.
  * kinds: a bit for each kind of shape, SHAPE_*; solids: there are opaque particles, which throw
- * shadows; instances: some particles are meshes with silhouette tiles
- * (lib/draw/light/instance_tiles.h); smoke: it throws shadows; lamps: there are lamps or light of
- * fire; lamp_shadows: objects may hide some of them; rectangles: some are rectangles. */
+ * shadows; stored: the shapes are too many for a uniform block; instances: some particles are
+ * meshes with silhouette tiles (lib/draw/light/instance_tiles.h); smoke: it throws shadows; lamps:
+ * there are lamps or light of fire; lamp_shadows: objects may hide some of them; rectangles: some
+ * are rectangles. */
 struct kiln_shape_features {
     uint32_t kinds;
-    bool meshes, paint, solids, instances, floor_image, floor_gloss, sky_image;
+    bool stored, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image;
     bool sun, smoke, lamps, lamp_shadows, rectangles;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-#define KILN_SHAPE_DEFINES 600 /* bytes of the text of kiln_shape_defines */
+#define KILN_SHAPE_DEFINES 630 /* bytes of the text of kiln_shape_defines */
 
 /* Writes the "#define" lines of the variant, as kiln_program_params takes them. */
 void kiln_shape_defines(const struct kiln_shape_features *features, char out[KILN_SHAPE_DEFINES]);
@@ -45,19 +47,24 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
 /* Returns how far a shape extends from its centre along a unit vector, m. */
 float kiln_shape_reach(const struct kiln_draw_shape *shape, float3 way);
 
-/* Returns a bit for each shape that hides lights by its place, which all do but planes. */
-static inline uint32_t kiln_shapes_that_hide(const struct kiln_draw_shapes *shapes)
+/* Returns the trimmed set of the shapes that hide lights by their place, which all do but planes.
+ */
+static inline struct kiln_shape_set kiln_shapes_that_hide(const struct kiln_draw_shapes *shapes)
 {
-    uint32_t hide = 0;
-    for (uint32_t i = 0; i < shapes->counts.x; i++)
-        hide |= (uint32_t)(shapes->shapes[i].kind.x != SHAPE_PLANE) << i;
+    struct kiln_shape_set hide = kiln_shape_set_empty(shapes->counts.x);
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        if (shapes->shapes[i].kind.x != SHAPE_PLANE)
+            kiln_shape_set_add(&hide, i);
+    }
+    kiln_shape_set_trim(&hide);
     return hide;
 }
 
-/* Returns how many objects may hide a part of the sky from surfaces. */
-static inline uint32_t kiln_shapes_under_sky(const struct kiln_draw_shapes *shapes)
+/* Returns whether objects may hide a part of the sky from surfaces. */
+static inline bool kiln_shapes_hide_sky(const struct kiln_draw_shapes *shapes)
 {
-    return shapes->counts.z + (uint32_t)__builtin_popcount(kiln_shapes_that_hide(shapes));
+    const struct kiln_shape_set hide = kiln_shapes_that_hide(shapes);
+    return shapes->counts.z > 0 || kiln_shape_set_any(&hide);
 }
 
 #endif

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "shared/trace.h"
 #include "sim/step/uses.h"
+#include "sim/world/colliders.h"
 
 static size_t step_stride(void)
 {
@@ -38,7 +39,9 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
     kiln_buffer_init(&blocks->steps, device,
                      (scene->system_count ? scene->system_count : 1) * blocks->step_stride,
                      "step parameters");
-    kiln_buffer_init(&blocks->surroundings, device, sizeof(struct kiln_surroundings),
+    kiln_buffer_init(&blocks->surroundings, device,
+                     kiln_sim_stores_surroundings(scene) ? sizeof(struct kiln_surroundings)
+                                                         : KILN_SURROUNDINGS_BLOCK,
                      "surroundings");
     float4 *keys = kiln_buffer_host(&blocks->keys, KILN_READ_WRITE, error);
     if (!keys)
@@ -71,7 +74,10 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
         return false;
     if (params->grids->key_words == 0)
         glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
-    glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, surroundings);
+    if (blocks->surroundings.size > KILN_SURROUNDINGS_BLOCK)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_AROUND, surroundings);
+    else
+        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, surroundings);
     if (params->grids->words.size > 0) {
         GLuint words = kiln_buffer_gl(&params->grids->words, KILN_READ, error);
         if (!words)
@@ -158,6 +164,7 @@ static void add_defines(struct kiln_text *defines, const struct kiln_device *dev
     add_define(defines, "COLLIDE_ORIENTED", oriented);
     add_define(defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(defines, "GRIDS", grids);
+    add_define(defines, "SURROUNDINGS_STORED", kiln_sim_stores_surroundings(scene));
     add_define(defines, "KEYS_STORED", params->grids->key_words > 0);
     add_define(defines, "COLLIDE_FIELD", (colliders & KINDS_FIELD) != 0);
     add_define(defines, "COLLIDE_VOLUME", (colliders & 1u << COLLIDER_VOLUME) != 0);

@@ -8,11 +8,12 @@
 
 struct kiln_sim_blocks {
     struct kiln_device *device;
-    uint32_t group_size;             /* invocations of a work group that steps slots */
-    size_t step_stride;              /* bytes from one system's parameters to the next's */
-    struct kiln_buffer keys;         /* float4: the scene's keys, room for KILN_BLOCK_KEYS */
-    struct kiln_buffer steps;        /* struct kiln_step_params, step_stride apart */
-    struct kiln_buffer surroundings; /* struct kiln_surroundings */
+    uint32_t group_size;      /* invocations of a work group that steps slots */
+    size_t step_stride;       /* bytes from one system's parameters to the next's */
+    struct kiln_buffer keys;  /* float4: the scene's keys, room for KILN_BLOCK_KEYS */
+    struct kiln_buffer steps; /* struct kiln_step_params, step_stride apart */
+    struct kiln_buffer
+        surroundings; /* struct kiln_surroundings, or KILN_SURROUNDINGS_BLOCK of it */
 };
 
 /* Creates the blocks. kiln_sim_blocks_finish frees everything, also after a failure. */
@@ -39,10 +40,10 @@ struct kiln_sim_programs {
 };
 
 /* Creates the programs of a kernel. `files` name a kernel that knows the variants COLLIDE_ROUND,
- * COLLIDE_ORIENTED, GRIDS, KEYS_STORED, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL,
- * SWEEP_ALL (with FORCES_ALL), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY,
- * and the masks of shaders/shared/uses.h; it also gets the defines in `files`.
- * kiln_sim_programs_finish frees everything, also after a failure. */
+ * COLLIDE_ORIENTED, GRIDS, SURROUNDINGS_STORED, KEYS_STORED, PUSHES, SPINS (with PUSHES and
+ * COLLIDE_RUB), FORCES_ALL, SWEEP_ALL (with FORCES_ALL), COLLIDE_FIELD (with GRIDS),
+ * COLLIDE_VOLUME, COLLIDE_RUB and FAMILY, and the masks of shaders/shared/uses.h; it also gets the
+ * defines in `files`. kiln_sim_programs_finish frees everything, also after a failure. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);

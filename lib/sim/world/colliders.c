@@ -277,6 +277,15 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
     return c;
 }
 
+bool kiln_sim_stores_surroundings(const struct kiln_scene *scene)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    uint32_t count = kiln_backdrop_floor_collides(backdrop);
+    for (uint32_t i = 0; i < backdrop->object_count; i++)
+        count += backdrop->objects[i].collide;
+    return count > KILN_BLOCK_COLLIDERS;
+}
+
 void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln_scene *scene,
                              const struct kiln_sim_grids *grids, float start_s, float end_s)
 {

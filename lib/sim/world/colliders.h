@@ -2,10 +2,20 @@
 #ifndef KILN_SIM_WORLD_COLLIDERS_H
 #define KILN_SIM_WORLD_COLLIDERS_H
 
+#include <stddef.h>
+
 #include "sim/world/grids.h"
+
+/* Bytes of struct kiln_surroundings in a uniform block, which has the first of the colliders. */
+#define KILN_SURROUNDINGS_BLOCK                                                                    \
+    (offsetof(struct kiln_surroundings, colliders) +                                               \
+     KILN_BLOCK_COLLIDERS * sizeof(struct kiln_collider))
 
 /* Returns the kind of collider, COLLIDER_*, that an object is whenever it collides. */
 uint kiln_sim_collider_kind(const struct kiln_object *object);
+
+/* Returns whether a scene has too many colliders for a uniform block. */
+bool kiln_sim_stores_surroundings(const struct kiln_scene *scene);
 
 /* Fills in the colliders and poses of a step between two clip times; rate: steps a second. Members
  * that do not change during a run are kept. */

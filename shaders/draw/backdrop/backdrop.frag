@@ -15,6 +15,7 @@
 // variant: KILN_SHAPES(ROW)=ROW(CYLINDER,cylinder)ROW(PLANE,plane)
 // variant: KILN_SHAPES(ROW)=ROW(CAPSULE,capsule)
 // variant:
+// variant: SHAPES_STORED=1 KILN_SHAPES(ROW)=ROW(BOX,box)ROW(CAPSULE,capsule)
 // variant: MESHES=1
 // variant: MESHES=1 PAINT=1
 // variant: SOLIDS=1
@@ -29,6 +30,12 @@
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
+#ifdef SHAPES_STORED
+layout(std430, binding = KILN_BIND_STORED_SHAPES) readonly buffer stored_block
+{
+    kiln_draw_shape stored_shapes[];
+};
+#endif
 
 layout(location = BACKDROP_AT_EDGES) uniform bool at_edges;
 

@@ -41,7 +41,7 @@ void trace_meshes(int layer, inout hit nearest)
 #ifdef PAINT
         albedo = add_paint(i, found, albedo);
 #endif
-        nearest = hit(t, KILN_SURFACE_MESHES + 4 * i, mesh_hit_normal(found.xy), albedo);
+        nearest = hit(t, int(shapes.counts.y) + 4 * i, mesh_hit_normal(found.xy), albedo);
     }
 }
 
@@ -54,14 +54,14 @@ bool has_mesh_edge(int surface)
     vec3 normal = mesh_hit_normal(center);
     bool edge = false;
     /* Software runs both sides of an `if`, but saves the iterations of a shorter loop. */
-    int samples = surface >= KILN_SURFACE_MESHES ? KILN_EDGE_SAMPLES : 1;
+    int samples = surface >= int(shapes.counts.y) ? KILN_EDGE_SAMPLES : 1;
     for (int s = 1; s <= samples; s++) {
         uvec2 other = texelFetch(mesh_hits, ivec3(pixel, s), 0).xy;
         edge = edge || mesh_hit_index(other) != mesh_hit_index(center) ||
                abs(mesh_hit_depth(other) - depth) > 0.01 * depth ||
                dot(mesh_hit_normal(other), normal) < 0.95;
     }
-    return edge && surface >= KILN_SURFACE_MESHES;
+    return edge && surface >= int(shapes.counts.y);
 }
 
 /* Returns the part of the sun that a mesh covers. A texel of its map has the coverage and, weighted

@@ -59,7 +59,7 @@ float sun_visibility(vec3 point, vec3 normal)
 #else
     vec3 origin = point + normal * LIGHT_START;
     float visible = shapes_light_visibility(
-        ~0u, origin, sun_way_of(backdrop.sun_direction, shapes.sun_right.w, 0.0));
+        -1, origin, sun_way_of(backdrop.sun_direction, shapes.sun_right.w, 0.0));
 #ifdef MESHES
     visible *= mesh_sun_visibility(origin, normal);
 #endif
@@ -131,7 +131,7 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
 #else
     vec3 origin = point + normal * LIGHT_START;
     light_way way = lamp_way_to(backdrop.lights[i], origin, normal, 0.0);
-    float visible = shapes_light_visibility(backdrop.lights[i].casters.x, origin, way);
+    float visible = shapes_light_visibility(i, origin, way);
 #if defined MESHES || defined SOLIDS
     way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin, backdrop.lights[i].color.w,
                       0.0);

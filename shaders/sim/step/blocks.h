@@ -29,7 +29,11 @@ layout(std140, binding = SIM_BIND_STEP) uniform step_block
     kiln_step_params step_params;
 };
 
+#ifdef SURROUNDINGS_STORED
+layout(std430, binding = SIM_BIND_AROUND) readonly buffer surroundings_block
+#else
 layout(std140, binding = SIM_BIND_SURROUNDINGS) uniform surroundings_block
+#endif
 {
     kiln_surroundings surroundings;
 };

@@ -83,6 +83,30 @@ $ sed '/ s/s/speed/life/' few.yaml >lives.yaml; kiln render lives.yaml -q -o non
 2|kiln: systems: found up to 12288 keys of lives; OpenGL takes at most 1024: use the device cpu
 = 2
 
+Objects that collide, of which a lamp and the sun see each other's shadows:
+
+$ objects() {
+>     printf 'kiln: 1\noutput: {size: [96, 54], frames: 2}\nsimulation: {warmup: 1.5 s}\ncamera: {position: [0, 4, 9]}\nsystems:\n'
+>     echo '  rain: {emit: {rate: 3000, from: {box: {origin: [0, 3, 0], size: [8, 0.2, 8]}}}, forces: [gravity: {}], collide: {restitution: 0.5}}'
+>     printf 'backdrop:\n  lights: [point: {position: [0, 4, 3], color: [20, 20, 20]}]\n  objects:\n'
+>     for i in $(seq "$1"); do
+>         at="center: [$((i % 16 / 2 - 4)).$((i % 2 * 5)), 0.3, $((i / 32 - 4)).$((i / 16 % 2 * 5))]"
+>         case $((i % 4)) in
+>         0) echo "    - box: {$at, size: [0.3, 0.6, 0.3]}" ;;
+>         1) echo "    - sphere: {$at, radius: 0.2}" ;;
+>         2) echo "    - cylinder: {$at, radius: 0.15, height: 0.6}" ;;
+>         3) echo "    - capsule: {$at, radius: 0.15, height: 0.4}" ;;
+>         esac
+>     done
+> }
+> objects 256 >256.yaml; objects 257 >257.yaml; bin/states 256.yaml; kiln check 257.yaml
+1|  state        9a7d9685bb4e0f71
+2|257.yaml:10:5: backdrop.objects: found 257 entries; at most 256 are allowed
+= 3
+$ kiln render 256.yaml -q -o none --frames 0 --device software --technique sort=oddeven:4
+2|kiln: backdrop.objects: found 256 objects; the technique sort=oddeven takes at most 32: use sort=radix
+= 2
+
 Lights, of which shapes hide each:
 
 $ lights() { printf 'kiln: 1\noutput: {size: [64, 36], frames: 9}\nsystems:\n  fire: {emit: {rate: 600}, look: {light: [9, 4, 1], lights: 16}}\nbackdrop:\n  objects: [box: {center: [0, 1, 0]}, sphere: {center: [2, 1, 0]}]\n  lights:\n'; bin/series "$1" '    - point: {position: [%d, 3, 2], color: [1, 2, 3]}\n'; }
