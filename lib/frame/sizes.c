@@ -30,6 +30,14 @@ static uint32_t count_life_keys(const struct kiln_scene *scene)
     return count;
 }
 
+static uint32_t count_meshes(const struct kiln_scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        count += kiln_object_is_mesh(&scene->backdrop.objects[i]);
+    return count;
+}
+
 /* Checks what the whole device must take, whichever of its techniques run. */
 static bool check_device(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                          struct kiln_error *error)
@@ -68,6 +76,7 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
         {"forces", "forces of a system", most_forces(scene), 16},
         {"scene", "keys", scene->key_count, KILN_BLOCK_KEYS},
         {"backdrop.objects", "objects", scene->backdrop.object_count, 32},
+        {"backdrop.objects", "meshes", count_meshes(scene), 8},
         {"backdrop.lights", "lights", scene->backdrop.light_count, 16},
     };
     const bool found = kiln_techniques_paper(techniques, paper, &instead);

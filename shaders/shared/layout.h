@@ -233,12 +233,14 @@ struct kiln_surroundings {
     uint collider_count;
     float steps_per_s;
     uint unused0, unused1;
-    S(kiln_grid) grids[KILN_MAX_GRIDS];
-    S(kiln_pose) poses[KILN_MAX_MESHES];
 #if defined(GL_core_profile) && !defined(SURROUNDINGS_STORED)
-    S(kiln_collider) colliders[KILN_BLOCK_COLLIDERS]; /* a uniform block has no room for all */
+    S(kiln_collider) colliders[KILN_BLOCK_COLLIDERS];
+    S(kiln_grid) grids[KILN_BLOCK_GRIDS];
+    S(kiln_pose) poses[KILN_BLOCK_MESHES];
 #else
     S(kiln_collider) colliders[KILN_MAX_COLLIDERS];
+    S(kiln_grid) grids[KILN_MAX_GRIDS];
+    S(kiln_pose) poses[KILN_MAX_MESHES];
 #endif
 };
 

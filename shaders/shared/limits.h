@@ -12,7 +12,7 @@
 #define KILN_MAX_DEMITTERS        8   /* a system */
 #define KILN_MAX_BURSTS           64  /* a system */
 #define KILN_MAX_OBJECTS          256 /* a scene */
-#define KILN_MAX_MESHES           8   /* a scene, including terrain; meshes also count as objects */
+#define KILN_MAX_MESHES           64  /* a scene, including terrain; meshes also count as objects */
 #define KILN_MAX_LIGHTS           64  /* a scene */
 #define KILN_MAX_DEPTH_DIRECTIONS 6   /* a mesh; each direction has a front and a back */
 
@@ -25,14 +25,17 @@
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65
 
-/* Colliders: objects and the floor; and the most that have room in a uniform block of 16 KiB,
- * beside all else in struct kiln_surroundings. With more, that lies in a storage block
- * (SURROUNDINGS_STORED). */
-#define KILN_MAX_COLLIDERS   257
-#define KILN_BLOCK_COLLIDERS 33
+/* Colliders: objects and the floor. */
+#define KILN_MAX_COLLIDERS 257
 
 #define KILN_MAX_WINDS 8                                  /* wind files of a scene */
 #define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* wind and colliders */
+
+/* What of struct kiln_surroundings has room in a uniform block of 16 KiB. With more, it lies in a
+ * storage block (SURROUNDINGS_STORED). */
+#define KILN_BLOCK_COLLIDERS 33
+#define KILN_BLOCK_MESHES    8
+#define KILN_BLOCK_GRIDS     (KILN_MAX_WINDS + KILN_BLOCK_MESHES)
 
 /* Kinds of interaction; a system has at most one of each. */
 #define KILN_MAX_INTERACTIONS 4

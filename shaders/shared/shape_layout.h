@@ -76,7 +76,7 @@
 
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
-    /* w: 1 + the mesh's layer of the textures of paint (at most 15 layers), plus 16 times the
+    /* w: 1 + the mesh's layer of the textures of paint (at most 127 layers), plus 128 times the
      * finest mip level that its paint has; 0: the mesh takes no paint */
     float4 color;
     float4 center; /* centre of its bounds in the world, m; w: radius of the sphere around them */

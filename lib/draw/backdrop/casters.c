@@ -55,7 +55,8 @@ void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_ob
     put_meshes(bounds, &inputs->shapes);
     memset(casters, 0, sizeof *casters);
     casters->sun_objects = kiln_shapes_that_hide(&inputs->shapes);
-    casters->sun_meshes = (1u << inputs->shapes.counts.z) - 1;
+    const uint32_t meshes = inputs->shapes.counts.z;
+    casters->sun_meshes = meshes < 64 ? ((uint64_t)1 << meshes) - 1 : ~(uint64_t)0;
     for (uint32_t i = 0; i < b->counts.y; i++)
         casters->lamps[i] = kiln_shape_set_of_lamp(&b->lights[i], inputs->shapes.counts.x);
 }

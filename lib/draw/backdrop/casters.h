@@ -40,12 +40,12 @@ static inline struct kiln_lamp_set kiln_lamps_without(const struct kiln_lamp_set
 struct kiln_casters {
     struct kiln_shape_set lamps[KILN_MOST_LAMPS]; /* by lamp, those of the picture */
     struct kiln_shape_set sun_objects;
-    uint32_t sun_meshes;
+    uint64_t sun_meshes;
 };
 
 enum {
-    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS,    /* the first mesh among the bounds */
-    KILN_BOUNDS_ROOM = KILN_MAX_OBJECTS + 16, /* whole vectors */
+    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS,                 /* the first mesh among the bounds */
+    KILN_BOUNDS_ROOM = KILN_MAX_OBJECTS + KILN_MAX_MESHES, /* whole vectors */
 };
 
 static_assert(KILN_MAX_OBJECTS + KILN_MAX_MESHES <= KILN_BOUNDS_ROOM, "all casters have room");

@@ -5,6 +5,7 @@
  * only when a mesh or the sun moved. */
 #include "draw/backdrop/meshes_gl.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -148,12 +149,15 @@ static void create_paint(struct kiln_meshes_gl *m)
 
 static bool create_programs(struct kiln_meshes_gl *m, struct kiln_error *error)
 {
-    m->hit_program = kiln_program_create(
-        m->device,
-        &(struct kiln_program_params){.vertex = "draw/backdrop/meshes.vert",
-                                      .fragment = "draw/backdrop/meshes.frag",
-                                      .defines = m->painted ? "#define PAINT 1\n" : NULL},
-        error);
+    char defines[80];
+    snprintf(defines, sizeof defines, "%s%s", m->painted ? "#define PAINT 1\n" : "",
+             m->count > KILN_FEW_MESHES ? KILN_MANY_MESHES : "");
+    m->hit_program =
+        kiln_program_create(m->device,
+                            &(struct kiln_program_params){.vertex = "draw/backdrop/meshes.vert",
+                                                          .fragment = "draw/backdrop/meshes.frag",
+                                                          .defines = defines},
+                            error);
     if (!m->hit_program)
         return false;
     m->shadow_program = kiln_program_create(
@@ -300,7 +304,7 @@ static void upload_paint(struct kiln_meshes_gl *m, const struct kiln_draw_shapes
         if (!p || kiln_painted_changes(m->painted, i) == m->paint_changes[i])
             continue;
         const GLint where = (GLint)shapes->meshes[i].color.w;
-        const GLint layer = where % 16 - 1, first = where / 16;
+        const GLint layer = where % 128 - 1, first = where / 128;
         for (uint32_t level = 0; level < p->levels; level++)
             glTexSubImage3D(GL_TEXTURE_2D_ARRAY, first + (GLint)level, 0, 0, layer,
                             (GLsizei)p->widths[level], (GLsizei)p->heights[level], 1, GL_RGBA,

@@ -154,12 +154,12 @@ SIMD vi sweep_meets(const struct swept_box *swept, const struct kiln_object_boun
 }
 
 /* Returns a bit for each of some bounds that a swept box meets. begin, end: multiples of 16. */
-SIMD uint32_t find_met(const struct swept_box *swept, const struct kiln_object_bounds *bounds,
+SIMD uint64_t find_met(const struct swept_box *swept, const struct kiln_object_bounds *bounds,
                        int begin, int end)
 {
-    uint32_t met = 0;
+    uint64_t met = 0;
     for (int i = begin; i < end; i += LANES)
-        met |= (uint32_t)vi_bits(sweep_meets(swept, bounds, i)) << (i - begin);
+        met |= (uint64_t)(uint32_t)vi_bits(sweep_meets(swept, bounds, i)) << (i - begin);
     return met;
 }
 
@@ -174,7 +174,7 @@ SIMD struct kiln_shape_set find_shapes_met(const struct kiln_shape_set *shapes,
         const int first = 32 * (int)i;
         met.words[i] = shapes->words[i];
         if (met.words[i])
-            met.words[i] &= find_met(swept, bounds, first, first + 32);
+            met.words[i] &= (uint32_t)find_met(swept, bounds, first, first + 32);
     }
     kiln_shape_set_trim(&met);
     return met;
@@ -203,8 +203,8 @@ SIMD struct kiln_casters find_casters(const struct kiln_ray_frame *frame,
     if (all->sun_meshes) {
         const struct swept_box swept =
             sweep_to_sun(box, b->sun_direction, CASTER_MESH_WIDER * spread);
-        casters.sun_meshes =
-            all->sun_meshes & find_met(&swept, bounds, KILN_BOUNDS_MESHES, KILN_BOUNDS_ROOM);
+        const int end = KILN_BOUNDS_MESHES + ((int)frame->shapes->counts.z + 15) / 16 * 16;
+        casters.sun_meshes = all->sun_meshes & find_met(&swept, bounds, KILN_BOUNDS_MESHES, end);
     }
     for (uint32_t i = 0; i < b->counts.y; i++) {
         const float4 lamp = b->lights[i].position_radius2;

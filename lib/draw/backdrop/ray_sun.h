@@ -240,9 +240,9 @@ SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_re
                                                  frame->shapes->sun_right.w, vf_all(0.0f))};
     hide_by_shapes(frame->shapes, &frame->casters->sun_objects, &r);
     vf visible = r.visible;
-    uint32_t meshes = frame->casters->sun_meshes;
+    uint64_t meshes = frame->casters->sun_meshes;
     for (; meshes; meshes &= meshes - 1)
-        visible *= 1.0f - mesh_cover(frame, __builtin_ctz(meshes), receiver);
+        visible *= 1.0f - mesh_cover(frame, __builtin_ctzll(meshes), receiver);
     return vf_where(receiver->active, visible);
 }
 

@@ -60,7 +60,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         .lamps = backdrop->light_count > 0 || kiln_scene_has_firelight(scene),
         .lamp_shadows = kiln_scene_shadow_lights(scene) > 0,
     };
-    uint32_t count = 0;
+    uint32_t count = 0, meshes = 0;
     for (uint32_t i = 0; i < backdrop->light_count; i++)
         features.rectangles |= backdrop->lights[i].kind == KILN_LIGHT_RECTANGLE;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
@@ -69,10 +69,12 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
             features.kinds |= 1u << shape_of(object);
             count++;
         }
-        features.meshes |= kiln_object_is_mesh(object);
+        meshes += kiln_object_is_mesh(object);
         features.paint |= kiln_object_takes_paint(object);
     }
     features.stored = count > KILN_BLOCK_SHAPES;
+    features.meshes = meshes > 0;
+    features.many_meshes = meshes > KILN_FEW_MESHES;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         features.solids |= system->enabled && kiln_look_is_opaque(&system->look);
@@ -89,10 +91,10 @@ void kiln_shape_defines(const struct kiln_shape_features *features, char out[KIL
 #undef ROW_OF
     };
     int length = snprintf(
-        out, KILN_SHAPE_DEFINES, "%s%s%s%s%s%s%s%s%s%s%s%s%s",
+        out, KILN_SHAPE_DEFINES, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s",
         features->stored ? "#define SHAPES_STORED 1\n" : "",
-        features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
-        features->solids ? "#define SOLIDS 1\n" : "",
+        features->meshes ? "#define MESHES 1\n" : "", features->many_meshes ? KILN_MANY_MESHES : "",
+        features->paint ? "#define PAINT 1\n" : "", features->solids ? "#define SOLIDS 1\n" : "",
         features->instances ? "#define INSTANCES 1\n" : "",
         features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
         features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
@@ -224,7 +226,7 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
         if (kiln_object_takes_paint(object)) {
             shapes->meshes[mesh].color.w = ++layer;
             for (uint32_t size = object->paint.size; size < largest; size *= 2)
-                shapes->meshes[mesh].color.w += 16.0f;
+                shapes->meshes[mesh].color.w += 128.0f;
         }
         mesh += kiln_object_is_mesh(object);
     }

@@ -10,18 +10,23 @@
 
 /* Holds the features of the shaders that a scene needs; each set of features is a shader variant.
  * kinds: a bit for each kind of shape, SHAPE_*; solids: there are opaque particles, which throw
- * shadows; stored: the shapes are too many for a uniform block; instances: some particles are
- * meshes with silhouette tiles (lib/draw/light/instance_tiles.h); smoke: it throws shadows; lamps:
- * there are lamps or light of fire; lamp_shadows: objects may hide some of them; rectangles: some
- * are rectangles. */
+ * shadows; stored: the shapes are too many for a uniform block; many_meshes: the numbers of meshes
+ * do not fit four bits; instances: some particles are meshes with silhouette tiles
+ * (lib/draw/light/instance_tiles.h); smoke: it throws shadows; lamps: there are lamps or light of
+ * fire; lamp_shadows: objects may hide some of them; rectangles: some are rectangles. */
 struct kiln_shape_features {
     uint32_t kinds;
-    bool stored, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image;
+    bool stored, meshes, many_meshes, paint, solids, instances, floor_image, floor_gloss, sky_image;
     bool sun, smoke, lamps, lamp_shadows, rectangles;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-#define KILN_SHAPE_DEFINES 630 /* bytes of the text of kiln_shape_defines */
+/* The most meshes whose numbers fit four bits in hits on meshes (mesh_hit.glsl), and the define of
+ * a scene with more. */
+#define KILN_FEW_MESHES  15
+#define KILN_MANY_MESHES "#define MANY_MESHES 1\n"
+
+#define KILN_SHAPE_DEFINES 660 /* bytes of the text of kiln_shape_defines */
 
 /* Writes the "#define" lines of the variant, as kiln_program_params takes them. */
 void kiln_shape_defines(const struct kiln_shape_features *features, char out[KILN_SHAPE_DEFINES]);

@@ -3,6 +3,7 @@
  * reads nothing back. */
 #include "sim/step/blocks.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -59,6 +60,43 @@ void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
     *blocks = (struct kiln_sim_blocks){.device = NULL};
 }
 
+/* Copies the first of all tables of the surroundings, as a uniform block has them. */
+static void pack_surroundings(const struct kiln_surroundings *around, unsigned char *block)
+{
+    const struct {
+        const void *from;
+        size_t size;
+    } parts[] = {
+        {around, offsetof(struct kiln_surroundings, colliders)},
+        {around->colliders, KILN_BLOCK_COLLIDERS * sizeof *around->colliders},
+        {around->grids, KILN_BLOCK_GRIDS * sizeof *around->grids},
+        {around->poses, KILN_BLOCK_MESHES * sizeof *around->poses},
+    };
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        memcpy(block, parts[i].from, parts[i].size);
+        block += parts[i].size;
+    }
+}
+
+/* Uploads the surroundings and binds them. */
+static bool bind_surroundings(struct kiln_sim_blocks *blocks,
+                              const struct kiln_surroundings *around, struct kiln_error *error)
+{
+    const bool stored = blocks->surroundings.size > KILN_SURROUNDINGS_BLOCK;
+    unsigned char block[KILN_SURROUNDINGS_BLOCK];
+    if (!stored)
+        pack_surroundings(around, block);
+    const GLuint buffer = kiln_buffer_upload(
+        &blocks->surroundings, stored ? (const void *)around : (const void *)block, error);
+    if (!buffer)
+        return false;
+    if (stored)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_AROUND, buffer);
+    else
+        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, buffer);
+    return true;
+}
+
 bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_sim_params *params,
                             struct kiln_buffer *traces, struct kiln_buffer *pushes,
                             struct kiln_buffer *spins, struct kiln_error *error)
@@ -69,15 +107,11 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
     for (uint32_t i = 0; i < params->system_count; i++)
         memcpy(steps + i * blocks->step_stride, &params->systems[i], sizeof params->systems[i]);
     GLuint key_buffer = kiln_buffer_gl(&blocks->keys, KILN_READ, error);
-    GLuint surroundings = kiln_buffer_upload(&blocks->surroundings, &params->surroundings, error);
-    if (!key_buffer || !surroundings || !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
+    if (!key_buffer || !bind_surroundings(blocks, &params->surroundings, error) ||
+        !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
         return false;
     if (params->grids->key_words == 0)
         glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
-    if (blocks->surroundings.size > KILN_SURROUNDINGS_BLOCK)
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_AROUND, surroundings);
-    else
-        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_SURROUNDINGS, surroundings);
     if (params->grids->words.size > 0) {
         GLuint words = kiln_buffer_gl(&params->grids->words, KILN_READ, error);
         if (!words)

@@ -266,7 +266,7 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
                           &around->poses[grids->of_object[index] - grids->wind_count]);
         break;
     case COLLIDER_VOLUME:
-        c = kiln_volumes_collider(&grids->volumes, index, &around->grids[KILN_MAX_WINDS]);
+        c = kiln_volumes_collider(&grids->volumes, index, grids->count, around->grids);
         break;
     default:
         c = kiln_oriented_collider(scene, object, start_s, end_s);
@@ -280,10 +280,12 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
 bool kiln_sim_stores_surroundings(const struct kiln_scene *scene)
 {
     const struct kiln_backdrop *backdrop = &scene->backdrop;
-    uint32_t count = kiln_backdrop_floor_collides(backdrop);
-    for (uint32_t i = 0; i < backdrop->object_count; i++)
+    uint32_t count = kiln_backdrop_floor_collides(backdrop), meshes = 0;
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
         count += backdrop->objects[i].collide;
-    return count > KILN_BLOCK_COLLIDERS;
+        meshes += kiln_object_is_mesh(&backdrop->objects[i]);
+    }
+    return count > KILN_BLOCK_COLLIDERS || meshes > KILN_BLOCK_MESHES;
 }
 
 void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln_scene *scene,

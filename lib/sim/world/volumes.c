@@ -290,13 +290,12 @@ static void bound(const struct kiln_volume *volume, float (*vertices)[3], float4
 }
 
 struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, uint32_t object,
-                                           struct kiln_grid table[KILN_MAX_MESHES])
+                                           uint32_t first, struct kiln_grid table[KILN_MAX_GRIDS])
 {
     const uint32_t number = volumes->of_object[object];
     const struct kiln_volume *volume = volumes->items[number];
     const struct kiln_voxels *v = &volume->voxels;
-    /* Volumes fill the table from its end; the grids of other meshes fill it from its start. */
-    const uint32_t place = KILN_MAX_MESHES - 1 - number;
+    const uint32_t place = first + number;
     table[place] = (struct kiln_grid){
         .origin = FLOAT4(v->origin[0], v->origin[1], v->origin[2], 0.0f),
         .per_metre = FLOAT4(v->per_metre, v->per_metre, v->per_metre, 0.0f),
@@ -304,7 +303,7 @@ struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, u
     };
     struct kiln_collider c = {
         .kind = COLLIDER_VOLUME,
-        .grid = KILN_MAX_WINDS + place,
+        .grid = place,
         .planes =
             (uint)(volume->first + mark_words(v)) | (volume->two_sided ? VOLUME_TWO_SIDED : 0),
     };

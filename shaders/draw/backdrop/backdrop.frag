@@ -18,6 +18,7 @@
 // variant: SHAPES_STORED=1 KILN_SHAPES(ROW)=ROW(BOX,box)ROW(CAPSULE,capsule)
 // variant: MESHES=1
 // variant: MESHES=1 PAINT=1
+// variant: MESHES=1 MANY_MESHES=1
 // variant: SOLIDS=1
 // variant: MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1
 // variant: FLOOR_GLOSS=1

@@ -20,11 +20,11 @@ layout(binding = KILN_UNIT_MESH_PAINT) uniform sampler2DArray mesh_paint;
 vec3 add_paint(int i, uvec4 found, vec3 albedo)
 {
     int layer_and_level = int(shapes.meshes[i].color.w);
-    int layer = (layer_and_level & 15) - 1;
+    int layer = (layer_and_level & 127) - 1;
     if (layer < 0)
         return albedo;
     float finest = log2(float(textureSize(mesh_paint, 0).x));
-    float level = max(uintBitsToFloat(found.w) + finest, float(layer_and_level >> 4));
+    float level = max(uintBitsToFloat(found.w) + finest, float(layer_and_level >> 7));
     vec4 paint = textureLod(mesh_paint, vec3(unpackUnorm2x16(found.z), float(layer)), level);
     return albedo * (1.0 - paint.a) + paint.rgb;
 }

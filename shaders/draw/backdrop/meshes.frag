@@ -5,6 +5,7 @@
  * its edge. */
 // variant:
 // variant: PAINT=1
+// variant: MANY_MESHES=1
 #include "draw/backdrop/mesh_hit.glsl"
 
 uniform int mesh;

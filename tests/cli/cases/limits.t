@@ -121,7 +121,7 @@ $ kiln help limits | sed -n '20,$p'
 1|cells         2048        Cells of a texture; in OpenGL, of all textures together.
 1|keys          65536       Keys of all values; in OpenGL, 1024 of them of lives.
 1|objects       256         Objects of the backdrop, meshes and terrain included.
-1|meshes        8           Meshes and terrains of the backdrop.
+1|meshes        64          Meshes and terrains of the backdrop.
 1|lights        64          Lights of the backdrop.
 1|winds         8           Files of wind.
 1|steps         4194303     Steps of a run, warm-up included.

@@ -107,6 +107,24 @@ $ kiln render 256.yaml -q -o none --frames 0 --device software --technique sort=
 2|kiln: backdrop.objects: found 256 objects; the technique sort=oddeven takes at most 32: use sort=radix
 = 2
 
+Meshes that collide, as fields and as volumes:
+
+$ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >tetrahedron.obj
+> meshes() {
+>     sed '/objects:/q' 256.yaml
+>     for i in $(seq "$1"); do
+>         case $((i % 4)) in 0) way=volume ;; *) way=field ;; esac
+>         echo "    - mesh: {file: tetrahedron.obj, position: [$((i % 8 - 4)), 0.3, $((i / 8 - 4))], scale: 0.7, collide: true, collider: $way, cells: 24}"
+>     done
+> }
+> meshes 64 >64.yaml; meshes 65 >65.yaml; meshes 9 >9.yaml; bin/states 64.yaml; kiln check 65.yaml
+1|  state        7c9bbce444be0535
+2|65.yaml:10:5: backdrop.objects: more than 64 meshes; no more are allowed
+= 3
+$ kiln render 9.yaml -q -o none --frames 0 --device software --technique simulate=pingpong
+2|kiln: backdrop.objects: found 9 meshes; the technique simulate=pingpong takes at most 8: use simulate=inplace
+= 2
+
 Lights, of which shapes hide each:
 
 $ lights() { printf 'kiln: 1\noutput: {size: [64, 36], frames: 9}\nsystems:\n  fire: {emit: {rate: 600}, look: {light: [9, 4, 1], lights: 16}}\nbackdrop:\n  objects: [box: {center: [0, 1, 0]}, sphere: {center: [2, 1, 0]}]\n  lights:\n'; bin/series "$1" '    - point: {position: [%d, 3, 2], color: [1, 2, 3]}\n'; }
