@@ -523,10 +523,14 @@ static inline bool kiln_scene_stores_keys(const struct kiln_scene *scene)
  * eye and the pixels' samples have one place. */
 bool kiln_scene_view_stands(const struct kiln_scene *scene);
 
-/* Return whether the sun ever shines, whether particles ever emit light, and whether particles are
- * smoke that throws shadows. */
+/* Return whether the sun ever shines, whether particles ever emit light, whether there are lamps or
+ * such light, and whether particles are smoke that throws shadows. */
 bool kiln_scene_has_sun(const struct kiln_scene *scene);
 bool kiln_scene_has_firelight(const struct kiln_scene *scene);
+static inline bool kiln_scene_has_lamps(const struct kiln_scene *scene)
+{
+    return scene->backdrop.light_count > 0 || kiln_scene_has_firelight(scene);
+}
 bool kiln_scene_has_smoke(const struct kiln_scene *scene);
 
 /* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide

@@ -51,7 +51,7 @@ static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *devi
     const struct kiln_lighting_textures textures = {
         .smoke = stage->smoke,
         .sun = stage->sun,
-        .lamps = stage->fire || stage->scene->backdrop.light_count > 0,
+        .lamps = kiln_scene_has_lamps(stage->scene),
         .solids = stage->solids != NULL,
         .instances = kiln_instance_tile_edge(stage->scene) > 0,
         .lamp_maps = stage->lamp_maps != NULL,

@@ -57,7 +57,7 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
         .sky_image = backdrop->sky_image != NULL,
         .sun = kiln_scene_has_sun(scene),
         .smoke = kiln_scene_has_smoke(scene),
-        .lamps = backdrop->light_count > 0 || kiln_scene_has_firelight(scene),
+        .lamps = kiln_scene_has_lamps(scene),
         .lamp_shadows = kiln_scene_shadow_lights(scene) > 0,
     };
     uint32_t count = 0, meshes = 0;

@@ -17,6 +17,8 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            struct kiln_error *error);
 void kiln_geometry_destroy(struct kiln_geometry **stage);
 
+#define KILN_GEOMETRY_DEFINES 128 /* bytes of the text of kiln_geometry_defines */
+
 /* Writes the "#define" lines of shaders that draw a scene's particles
  * (shaders/draw/sprites/particle.glsl). */
 void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size);

@@ -56,7 +56,7 @@ struct kiln_tiled {
 static GLuint create_program(struct kiln_tiled *tiled, const struct kiln_scene *scene,
                              const char *file, struct kiln_error *error)
 {
-    char defines[160], drawing[64];
+    char drawing[KILN_GEOMETRY_DEFINES], defines[KILN_GEOMETRY_DEFINES + 96];
     kiln_geometry_defines(scene, drawing, sizeof drawing);
     snprintf(defines, sizeof defines,
              "%s#define TILED_EDGE %u\n#define TILED_ROWS %u\n#define TILED_GROUP_SIZE %u\n",

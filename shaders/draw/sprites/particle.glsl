@@ -20,7 +20,9 @@
  * The host defines SHAPES as 1 for a scene with points, lines or billboards that are not parallel
  * to the picture, else as 0. It defines SUN_SHADE and LAMP_SHADE only for a scene whose backdrop
  * shades particles from the sun, or from lamps (kiln_geometry_defines in
- * lib/draw/sprites/particles_geometry.c). Other scenes get a faster shader without that code.
+ * lib/draw/sprites/particles_geometry.c). Other scenes get a faster shader without that code. It
+ * defines NO_SMOKE for a scene without smoke that throws shadows, and NO_LAMPS for one without lamps
+ * and light of fire.
  *
  * tests/support/true_sprite.h is the reference implementation: tests compare every technique with
  * it. */
@@ -83,11 +85,13 @@ void light_particle(float lit, vec3 color, uint slot, vec3 position, billboard_p
     light_parts sun = light_parts_through(smoke_depth_to_sun(position), diffusion,
                                           sunlight_past_backdrop(slot));
     sum = light_sum_add_sun(sum, backdrop.sun_color, backdrop.sun_direction, lit, sun);
+#ifndef NO_LAMPS
     for (int i = 0; i < int(backdrop.counts.y); i++) {
         light_parts parts = light_parts_through(smoke_depth_to_lamp(i, position), diffusion,
                                                 lamplight_past_backdrop(i, slot));
         sum = light_sum_add_lamp(sum, backdrop.lights[i], lit, position, parts);
     }
+#endif
     sum = light_sum_along_plane(sum, 1.0 - lit, view.world_to_view[0], view.world_to_view[1],
                                 view.world_to_view[2], plane);
     particle.light_0.rgb = vec3(sum.red.all, sum.green.all, sum.blue.all);

@@ -5,6 +5,7 @@
  * does the same without a geometry shader. The outputs must be the inputs of
  * particles_geometry.geom. */
 // variant: SHAPES=0
+// variant: SHAPES=0 NO_SMOKE=1 NO_LAMPS=1
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
 #include "shared/draw_layout.h"

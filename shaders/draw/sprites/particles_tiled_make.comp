@@ -2,6 +2,7 @@
  * may touch. It is the first kernel of technique `tiled` that lib/draw/sprites/particles_tiled.c
  * runs for a chunk; tiled.glsl says what a sprite is. */
 // variant: SHAPES=0 TILED_EDGE=16
+// variant: SHAPES=0 NO_SMOKE=1 NO_LAMPS=1 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=16
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1 TILED_EDGE=16
 #include "shared/draw_layout.h"
