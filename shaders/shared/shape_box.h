@@ -1,5 +1,6 @@
 /* Draws boxes, which lie along the axes of the world or in a frame of their own, and lets particles
  * collide with the latter (collide_box.h has the former). */
+/* NOLINTBEGIN(misc-unused-parameters): all kinds have the same parameters */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_BOX_DRAWN)
 #define KILN_BOX_DRAWN
 
@@ -346,3 +347,5 @@ FN float3 box_grown(S(kiln_collider) c, S(collide_frame) frame, uint face, float
 }
 
 #endif
+
+/* NOLINTEND(misc-unused-parameters) */

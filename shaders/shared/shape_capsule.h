@@ -1,5 +1,6 @@
 /* Draws capsules and lets particles collide with them. A capsule is all balls of one radius whose
  * centres lie on a segment. A ball is drawn as a capsule whose segment has no length. */
+/* NOLINTBEGIN(misc-unused-parameters): all kinds have the same parameters */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_CAPSULE_DRAWN)
 #define KILN_CAPSULE_DRAWN
 
@@ -272,3 +273,5 @@ FN float3 capsule_grown(S(kiln_collider) c, S(collide_frame) frame, uint face, f
 }
 
 #endif
+
+/* NOLINTEND(misc-unused-parameters) */

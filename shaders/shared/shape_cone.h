@@ -1,5 +1,6 @@
 /* Draws cones with a flat base and lets particles collide with them. The centre is halfway between
  * the base, where the radius is the whole one, and the tip, which the axis points to. */
+/* NOLINTBEGIN(misc-unused-parameters): all kinds have the same parameters */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_CONE_DRAWN)
 #define KILN_CONE_DRAWN
 
@@ -358,3 +359,5 @@ FN float3 cone_grown(S(kiln_collider) c, S(collide_frame) frame, uint face, floa
 }
 
 #endif
+
+/* NOLINTEND(misc-unused-parameters) */

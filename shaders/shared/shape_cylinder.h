@@ -1,5 +1,6 @@
 /* Draws cylinders with flat ends, and lets particles collide with those whose axis turns
  * (collide_round.h has the others). */
+/* NOLINTBEGIN(misc-unused-parameters): all kinds have the same parameters */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_CYLINDER_DRAWN)
 #define KILN_CYLINDER_DRAWN
 
@@ -219,3 +220,5 @@ FN float3 cylinder_grown(S(kiln_collider) c, S(collide_frame) frame, uint face, 
 }
 
 #endif
+
+/* NOLINTEND(misc-unused-parameters) */

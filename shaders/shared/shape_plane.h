@@ -1,6 +1,7 @@
 /* Draws planes and lets particles collide with the half spaces below them. A plane hides the same
  * part of a light from all places above it, so the host dims lights by planes, and the functions of
  * this file that say what a plane hides say that it is nothing. */
+/* NOLINTBEGIN(misc-unused-parameters): all kinds have the same parameters */
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_PLANE_DRAWN)
 #define KILN_PLANE_DRAWN
 
@@ -122,3 +123,5 @@ FN float3 plane_grown(S(kiln_collider) c, S(collide_frame) frame, uint face, flo
 }
 
 #endif
+
+/* NOLINTEND(misc-unused-parameters) */
