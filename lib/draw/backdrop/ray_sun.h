@@ -234,6 +234,7 @@ SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_re
         return vf_all(0.0f);
     struct light_receiver r = {.origin = receiver->origin,
                                .seen = frame->from_sun,
+                               .blocked = frame->shapes->sun_right.w == 0.0f,
                                .active = receiver->active,
                                .visible = vf_all(1.0f),
                                .way = sun_way_of(frame->backdrop->sun_direction,

@@ -16,6 +16,7 @@ struct light_receiver {
     struct vf3 origin;
     struct light_way way;
     const struct kiln_shape_seen *seen; /* of each shape if `way` has one direction, else NULL */
+    bool blocked; /* the light has no size, and points are lit: rays to it are blocked or not */
     vi active;
     vf visible; /* part of the light, so far */
     vf blur;    /* width of the narrowest filter that read a map, m; lamps only */
