@@ -6,6 +6,10 @@
 #include "support/errors.h"
 #include "support/scenes.h"
 
+#define FOUR_TERRAINS       "{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}, "
+#define SIXTEEN_TERRAINS    FOUR_TERRAINS FOUR_TERRAINS FOUR_TERRAINS FOUR_TERRAINS
+#define SIXTY_FOUR_TERRAINS SIXTEEN_TERRAINS SIXTEEN_TERRAINS SIXTEEN_TERRAINS SIXTEEN_TERRAINS
+
 static const struct {
     const char *text;
     const char *message; /* after the name of the file */
@@ -42,10 +46,8 @@ static const struct {
      ":2:40: backdrop.objects.0.terrain.image: cannot open 'none.png': No such file or directory"
      "; a path starts at the scene's folder, or at the asset root that is given instead"},
     {"kiln: 1\n"
-     "backdrop: {objects: [{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: "
-     "{}}, "
-     "{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}]}\n",
-     ":2:21: backdrop.objects: more than 8 meshes; no more are allowed"},
+     "backdrop: {objects: [" SIXTY_FOUR_TERRAINS "{terrain: {}}]}\n",
+     ":2:21: backdrop.objects: more than 64 meshes; no more are allowed"},
     {"kiln: 1\n"
      "backdrop: {sky: {image: /etc/passwd}}\n",
      ":2:25: backdrop.sky.image: '/etc/passwd' is outside the asset root; a path starts at the "
