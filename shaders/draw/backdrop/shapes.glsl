@@ -60,6 +60,7 @@ float shapes_light_visibility(int light, vec3 origin, light_way way)
         bool near = MAY_HIDE(light, i) &&                                                          \
                     light_meets_sphere(way, towards, SHAPE[i].center.w);                           \
         name##_seen seen = name##_seen_along(SHAPE[i], way.direction);                             \
+        near = near && name##_may_hide(SHAPE[i], seen, towards, way);                              \
         if (near)                                                                                  \
             visible *= 1.0 - light_hidden(way, name##_cover(SHAPE[i], seen, towards, way, near));  \
     }
