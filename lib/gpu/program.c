@@ -223,6 +223,21 @@ GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program
     return program;
 }
 
+GLuint kiln_program_create_defined(struct kiln_device *device,
+                                   const struct kiln_program_params *params,
+                                   struct kiln_text *defines, struct kiln_error *error)
+{
+    struct kiln_program_params defined = *params;
+    GLuint program = 0;
+    defined.defines = defines->data;
+    if (defines->failed)
+        kiln_error_no_memory(error, "the defines of a program");
+    else
+        program = kiln_program_create(device, &defined, error);
+    kiln_text_free(defines);
+    return program;
+}
+
 char *kiln_program_source(const char *file, const char *defines, struct kiln_error *error)
 {
     struct kiln_source *source = calloc(1, sizeof *source);

@@ -2,6 +2,7 @@
 #ifndef KILN_GPU_PROGRAM_H
 #define KILN_GPU_PROGRAM_H
 
+#include "base/text.h"
 #include "gpu/device.h"
 
 /* Names the files of a program, relative to shaders/ ("draw/sprites/particles.frag"); a stage that
@@ -20,6 +21,12 @@ struct kiln_program_params {
  * names one. The caller deletes the program with glDeleteProgram. */
 GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program_params *params,
                            struct kiln_error *error);
+
+/* Does the same with `defines` in place of params->defines, which is ignored, and frees the text.
+ */
+GLuint kiln_program_create_defined(struct kiln_device *device,
+                                   const struct kiln_program_params *params,
+                                   struct kiln_text *defines, struct kiln_error *error);
 
 /* Returns the text of a shader with every include resolved, as the driver gets it, or NULL with an
  * error on failure. The caller frees the text. The build writes such texts for the validator. */

@@ -21,7 +21,7 @@
  * about one MiB. */
 enum { MOST_BINARY_BYTES = 64 << 20, MOST_FORMATS = 64 };
 
-/* What a file has before the binary. */
+/* Begins a file; the binary follows. */
 struct head {
     char name[KILN_PROGRAM_NAME_SIZE];
     char zero[3];

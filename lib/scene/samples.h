@@ -5,8 +5,8 @@
 
 #include "scene/options.h"
 
-/* What a scene must know of a kind of grids that are made of meshes before the first step, for
- * particles to collide with. */
+/* Declares a kind of grids that are made of meshes before the first step, so that particles collide
+ * with them: what a scene must know of it. */
 struct kiln_mesh_grid {
     /* Returns false with KILN_INVALID_INPUT if a grid would take too long to make. NULL: none does.
      */

@@ -103,6 +103,44 @@ FN S(collide_span) collide_either(S(collide_span) one, S(collide_span) other)
     return span;
 }
 
+/* ---- round sides ----------------------------------------------------------------------------- */
+
+/* Returns the vector from the axis. */
+FN float3 collide_from_axis(float3 q)
+{
+    EXACT float3 y = FLOAT3(q.x, 0.0f, q.z);
+    return y;
+}
+
+/* Intersects a segment with a cylinder: a round side between two ends. */
+FN S(collide_span) collide_barrel(S(collide_frame) start, S(collide_frame) end, float3 a, float3 b)
+{
+    EXACT S(collide_span) span = collide_span_start();
+    EXACT float3 from = collide_from_axis(a);
+    EXACT float3 to = collide_from_axis(b);
+    EXACT float lower0 = start.extent.y + a.y;
+    EXACT float lower1 = end.extent.y + b.y;
+    EXACT float upper0 = start.extent.y - a.y;
+    EXACT float upper1 = end.extent.y - b.y;
+    span = collide_side(span, from, to, start.radius, end.radius);
+    span = collide_face(span, COLLIDE_LOWER, lower0, lower1);
+    span = collide_face(span, COLLIDE_UPPER, upper0, upper1);
+    return span;
+}
+
+/* Returns the part of the surface that a point inside is nearest to, of a side and two ends. side:
+ * its distance from the side, m; end: of the ends from the centre, m. */
+FN uint collide_nearest_of(float side, float end, float3 q)
+{
+    uint face = COLLIDE_SIDE;
+    EXACT float lower = end + q.y;
+    EXACT float upper = end - q.y;
+    face = lower < side ? COLLIDE_LOWER : face;
+    EXACT float least = exact_min(lower, side);
+    face = upper < least ? COLLIDE_UPPER : face;
+    return face;
+}
+
 /* ---- faces that several kinds have ----------------------------------------------------------- */
 
 /* Returns the outward normal of one of the two ends across the axis. */

@@ -31,8 +31,8 @@
 #define KILN_MAX_WINDS 8                                  /* wind files of a scene */
 #define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* wind and colliders */
 
-/* What of struct kiln_surroundings has room in a uniform block of 16 KiB. With more, it lies in a
- * storage block (SURROUNDINGS_STORED). */
+/* The most of each kind with which struct kiln_surroundings lies in a uniform block of 16 KiB. With
+ * more, it lies in a storage block (SURROUNDINGS_STORED). */
 #define KILN_BLOCK_COLLIDERS 33
 #define KILN_BLOCK_MESHES    8
 #define KILN_BLOCK_GRIDS     (KILN_MAX_WINDS + KILN_BLOCK_MESHES)

@@ -54,6 +54,12 @@ REAL_FN real disc_reach(float radius, real climb)
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
+/* A ray, with what is the same for all shapes that it may meet. */
+struct shape_ray {
+    real3 origin, direction;
+    real3 inverse; /* ray_inverse3 of the direction */
+};
+
 /* The t at which a ray enters and leaves. */
 struct ray_interval {
     real near, far;
@@ -90,6 +96,15 @@ REAL_FN real3 ray_inverse3(real3 direction)
     return REAL3(ray_inverse(direction.x), ray_inverse(direction.y), ray_inverse(direction.z));
 }
 
+REAL_FN S(shape_ray) shape_ray_of(real3 origin, real3 direction)
+{
+    S(shape_ray) ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    ray.inverse = ray_inverse3(direction);
+    return ray;
+}
+
 /* Returns the t at which a ray from above a plane meets it; a large number for other rays. height:
  * of the ray's start above the plane; climb: of its direction. */
 REAL_FN real ray_cross_plane(real height, real climb)
@@ -103,6 +118,29 @@ struct shape_face {
     real3 normal; /* unit, of the world */
     real number;  /* a whole number, KILN_FACE_LEAST to KILN_FACE_MOST: two faces meet at an edge */
 };
+
+/* ---- shapes around an axis ------------------------------------------------------------------- */
+
+/* An axis as seen in a direction. */
+struct axis_seen {
+    real3 right, up; /* unit, across the direction; the axis lies along `up` */
+    /* Sine and cosine of the angle between the axis and the plane across the direction. */
+    real climb, slant;
+    real side; /* 1 if the axis points along `up`, -1 if against it */
+};
+
+/* Where a shape is seen along its axis, `right` is any vector across the axis. */
+REAL_FN S(axis_seen) axis_seen_along(S(kiln_draw_shape) s, real3 direction)
+{
+    S(axis_seen) seen;
+    seen.climb = shape_along(s, direction);
+    seen.slant = real_sqrt(real_max(1.0f - seen.climb * seen.climb, real_all(1e-6f)));
+    real3 level = real3_scale(real3_cross(real3_all(s.rows[1]), direction), 1.0f / seen.slant);
+    seen.right = real3_select(seen.slant > 1e-3f, level, real3_all(s.rows[0]));
+    seen.up = real3_cross(direction, seen.right);
+    seen.side = real_sign_one(shape_along(s, seen.up));
+    return seen;
+}
 
 /* ---- the sky beside shapes ------------------------------------------------------------------- */
 

@@ -30,18 +30,29 @@ REAL_FN S(ray_interval) box_interval(S(ray_slabs) s)
                            real_min(real_min(s.far.x, s.far.y), s.far.z));
 }
 
-REAL_FN S(ray_interval) box_cross(S(kiln_draw_shape) s, real3 origin, real3 direction)
+/* Returns ray_inverse3 of a ray's direction along the axes of a box. */
+REAL_FN real3 box_ray_inverse(S(kiln_draw_shape) s, S(shape_ray) ray)
 {
-    real3 inverse = ray_inverse3(shape_into(s, direction));
+#ifndef GL_core_profile
+    if (s.kind.y == 0u)
+        return ray.inverse;
+#endif
+    return ray_inverse3(shape_into(s, ray.direction));
+}
+
+REAL_FN S(ray_interval) box_cross(S(kiln_draw_shape) s, S(shape_ray) ray)
+{
+    real3 inverse = box_ray_inverse(s, ray);
     return box_interval(
-        box_slabs(shape_into(s, real3_towards(s.center, origin)), s.extent, inverse));
+        box_slabs(shape_into(s, real3_towards(s.center, ray.origin)), s.extent, inverse));
 }
 
 /* A ray enters a box by the slab that it enters last. */
-REAL_FN S(shape_face) box_face(S(kiln_draw_shape) s, real3 origin, real3 direction, real t)
+REAL_FN S(shape_face) box_face(S(kiln_draw_shape) s, S(shape_ray) ray, real t)
 {
-    real3 inverse = ray_inverse3(shape_into(s, direction));
-    S(ray_slabs) at = box_slabs(shape_into(s, real3_towards(s.center, origin)), s.extent, inverse);
+    real3 inverse = box_ray_inverse(s, ray);
+    S(ray_slabs) at =
+        box_slabs(shape_into(s, real3_towards(s.center, ray.origin)), s.extent, inverse);
     truth x = truth_and(at.near.x >= at.near.y, at.near.x >= at.near.z);
     truth y = truth_and(truth_not(x), at.near.y >= at.near.z);
     truth z = truth_not(truth_or(x, y));

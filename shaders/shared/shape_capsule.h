@@ -49,20 +49,20 @@ REAL_FN S(ray_interval) ray_either(S(ray_interval) a, S(ray_interval) b)
     return ray_interval_or_miss(truth_or(has_a, has_b), near, far);
 }
 
-REAL_FN S(ray_interval) capsule_cross(S(kiln_draw_shape) s, real3 origin, real3 direction)
+REAL_FN S(ray_interval) capsule_cross(S(kiln_draw_shape) s, S(shape_ray) ray)
 {
-    real3 towards = real3_towards(s.center, origin), axis = real3_all(s.rows[1]);
+    real3 towards = real3_towards(s.center, ray.origin), axis = real3_all(s.rows[1]);
     real half_height = real_all(s.extent.y);
     S(ray_interval) low =
-        ball_cross(real3_add_scaled(towards, axis, -half_height), s.extent.w, direction);
+        ball_cross(real3_add_scaled(towards, axis, -half_height), s.extent.w, ray.direction);
 #ifndef GL_core_profile
     if (s.extent.y == 0.0f)
         return low;
 #endif
     S(ray_interval) high =
-        ball_cross(real3_add_scaled(towards, axis, half_height), s.extent.w, direction);
-    S(ray_interval) side = tube_cross(s, towards, direction);
-    S(ray_interval) ends = ends_cross(s, towards, direction);
+        ball_cross(real3_add_scaled(towards, axis, half_height), s.extent.w, ray.direction);
+    S(ray_interval) side = tube_cross(s, towards, ray.direction);
+    S(ray_interval) ends = ends_cross(s, towards, ray.direction);
     side = ray_interval_or_miss(side.near <= side.far, real_max(side.near, ends.near),
                                 real_min(side.far, ends.far));
     return ray_either(side, ray_either(low, high));
@@ -75,9 +75,9 @@ REAL_FN real3 capsule_across(S(kiln_draw_shape) s, real3 from)
     return shape_across(s, from, real_clamp(shape_along(s, from), -s.extent.y, s.extent.y));
 }
 
-REAL_FN S(shape_face) capsule_face(S(kiln_draw_shape) s, real3 origin, real3 direction, real t)
+REAL_FN S(shape_face) capsule_face(S(kiln_draw_shape) s, S(shape_ray) ray, real t)
 {
-    real3 from = real3_sub(real3_add_scaled(origin, direction, t), real3_all(s.center));
+    real3 from = real3_sub(real3_add_scaled(ray.origin, ray.direction, t), real3_all(s.center));
     S(shape_face) face;
     face.normal = real3_normalize(capsule_across(s, from));
     face.number = real_all(0.0f);
@@ -222,16 +222,7 @@ FN S(collide_span) capsule_end(S(collide_frame) start, S(collide_frame) end, flo
 
 FN S(collide_span) capsule_segment(S(collide_frame) start, S(collide_frame) end, float3 a, float3 b)
 {
-    EXACT S(collide_span) span = collide_span_start();
-    EXACT float3 from = FLOAT3(a.x, 0.0f, a.z);
-    EXACT float3 to = FLOAT3(b.x, 0.0f, b.z);
-    EXACT float lower0 = start.extent.y + a.y;
-    EXACT float lower1 = end.extent.y + b.y;
-    EXACT float upper0 = start.extent.y - a.y;
-    EXACT float upper1 = end.extent.y - b.y;
-    span = collide_side(span, from, to, start.radius, end.radius);
-    span = collide_face(span, COLLIDE_LOWER, lower0, lower1);
-    span = collide_face(span, COLLIDE_UPPER, upper0, upper1);
+    EXACT S(collide_span) span = collide_barrel(start, end, a, b);
     EXACT S(collide_span) low = capsule_end(start, end, a, b, -1.0f);
     EXACT S(collide_span) high = capsule_end(start, end, a, b, 1.0f);
     EXACT S(collide_span) balls = collide_either(low, high);

@@ -47,12 +47,12 @@ REAL_FN real cone_base(S(kiln_draw_shape) s, real3 towards, real3 direction)
     return (shape_along(s, towards) - s.extent.y) * ray_inverse(shape_along(s, direction));
 }
 
-REAL_FN S(ray_interval) cone_cross(S(kiln_draw_shape) s, real3 origin, real3 direction)
+REAL_FN S(ray_interval) cone_cross(S(kiln_draw_shape) s, S(shape_ray) ray)
 {
-    real3 towards = real3_towards(s.center, origin);
-    S(ray_interval) side = cone_side(s, towards, direction);
-    real base = cone_base(s, towards, direction);
-    truth rises = shape_along(s, direction) >= 0.0f;
+    real3 towards = real3_towards(s.center, ray.origin);
+    S(ray_interval) side = cone_side(s, towards, ray.direction);
+    real base = cone_base(s, towards, ray.direction);
+    truth rises = shape_along(s, ray.direction) >= 0.0f;
     return ray_interval_of(real_select(rises, real_max(side.near, base), side.near),
                            real_select(rises, side.far, real_min(side.far, base)));
 }
@@ -67,12 +67,12 @@ REAL_FN real3 cone_side_normal(S(kiln_draw_shape) s, real3 from)
         real3_add_scaled(outwards, real3_all(s.rows[1]), real_all(cone_slope(s))));
 }
 
-REAL_FN S(shape_face) cone_face(S(kiln_draw_shape) s, real3 origin, real3 direction, real t)
+REAL_FN S(shape_face) cone_face(S(kiln_draw_shape) s, S(shape_ray) ray, real t)
 {
-    real3 towards = real3_towards(s.center, origin), axis = real3_all(s.rows[1]);
-    truth on_base = truth_and(shape_along(s, direction) >= 0.0f,
-                              cone_base(s, towards, direction) >= t * (1.0f - 1e-6f));
-    real3 from = real3_sub(real3_scale(direction, t), towards);
+    real3 towards = real3_towards(s.center, ray.origin), axis = real3_all(s.rows[1]);
+    truth on_base = truth_and(shape_along(s, ray.direction) >= 0.0f,
+                              cone_base(s, towards, ray.direction) >= t * (1.0f - 1e-6f));
+    real3 from = real3_sub(real3_scale(ray.direction, t), towards);
     S(shape_face) face;
     face.normal =
         real3_select(on_base, real3_scale(axis, real_all(-1.0f)), cone_side_normal(s, from));
@@ -82,24 +82,18 @@ REAL_FN S(shape_face) cone_face(S(kiln_draw_shape) s, real3 origin, real3 direct
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* A cone as seen in a direction: an ellipse, the base, and a tip on the axis of `up`. Two lines
+/* A cone as seen in a direction: an ellipse, the base, and a tip on the line of `up`. Two lines
  * lead from the tip along the ellipse, unless the tip is seen in front of the base or behind it. */
 struct cone_seen {
-    real3 right, up;    /* unit, across the direction; `up` points to the side of the tip */
-    real climb, slant;  /* sine and cosine of the angle between the axis and the plane across it */
+    S(axis_seen) axis;
     real aside, upward; /* the outward normal of the line at the right; 0 and 0 without lines */
 };
 
 REAL_FN S(cone_seen) cone_seen_along(S(kiln_draw_shape) s, real3 direction)
 {
     S(cone_seen) seen;
-    seen.climb = shape_along(s, direction);
-    seen.slant = real_sqrt(real_max(1.0f - seen.climb * seen.climb, real_all(1e-6f)));
-    real3 level = real3_scale(real3_cross(real3_all(s.rows[1]), direction), 1.0f / seen.slant);
-    seen.right = real3_select(seen.slant > 1e-3f, level, real3_all(s.rows[0]));
-    real3 up = real3_cross(direction, seen.right);
-    seen.up = real3_scale(up, real_sign_one(shape_along(s, up)));
-    real tall = 2.0f * s.extent.y * seen.slant, deep = s.extent.w * seen.climb;
+    seen.axis = axis_seen_along(s, direction);
+    real tall = 2.0f * s.extent.y * seen.axis.slant, deep = s.extent.w * seen.axis.climb;
     real beyond = tall * tall - deep * deep; /* by how far the tip is beyond the ellipse, squared */
     real scale = real_rsqrt(real_max(beyond, real_all(0.0f)) + s.extent.w * s.extent.w);
     seen.aside = real_where(beyond > 0.0f, real_sqrt(real_max(beyond, real_all(0.0f))) * scale);
@@ -118,12 +112,13 @@ REAL_FN S(light_cover) cone_cover(S(kiln_draw_shape) s, S(cone_seen) seen, real3
                                   S(light_way) way, truth near)
 {
     float radius = s.extent.w, half_height = s.extent.y;
-    real x = real_abs(real3_dot(towards, seen.right)), y = -real3_dot(towards, seen.up);
+    real x = real_abs(real3_dot(towards, seen.axis.right)),
+         y = -real3_dot(towards, seen.axis.up) * seen.axis.side;
     real ahead = real3_dot(towards, way.direction);
     real along = real_clamp(-shape_along(s, towards), -half_height, half_height);
-    real t = real_max(ahead + along * seen.climb, real_all(0.0f)), disc = light_disc(way, t);
+    real t = real_max(ahead + along * seen.axis.climb, real_all(0.0f)), disc = light_disc(way, t);
     real inside = real_sqrt(real_max(radius * radius - x * x, real_all(0.0f)));
-    real bulge = real_abs(seen.climb) * inside, middle = half_height * seen.slant;
+    real bulge = real_abs(seen.axis.climb) * inside, middle = half_height * seen.axis.slant;
     truth has_lines = seen.aside > 0.0f;
     real far = real_all(1e6f);
     real below = seen.upward * (middle - y);
@@ -148,8 +143,9 @@ REAL_FN S(light_cover) cone_cover(S(kiln_draw_shape) s, S(cone_seen) seen, real3
 REAL_FN truth cone_may_hide(S(kiln_draw_shape) s, S(cone_seen) seen, real3 towards,
                             S(light_way) way)
 {
-    return axis_may_hide(s, towards, way, seen.climb, real3_scale(seen.right, seen.slant),
-                         seen.slant * seen.slant);
+    return axis_may_hide(s, towards, way, seen.axis.climb,
+                         real3_scale(seen.axis.right, seen.axis.slant),
+                         seen.axis.slant * seen.axis.slant);
 }
 
 /* Returns a distance that a point is outside of a cone at least, m; 0 inside of it. */
@@ -236,17 +232,11 @@ FN float cone_end(S(collide_frame) frame)
     return end;
 }
 
-FN float3 cone_across(float3 q)
-{
-    EXACT float3 y = FLOAT3(q.x, 0.0f, q.z);
-    return y;
-}
-
 FN bool cone_holds(S(collide_frame) frame, float3 q)
 {
     EXACT float end = cone_end(frame);
     EXACT float width = cone_width(frame, q.y);
-    EXACT float3 across = cone_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float excess = collide_round_excess(across, width);
     return excess < 0.0f && q.y < end && -q.y < end;
 }
@@ -280,8 +270,8 @@ FN S(collide_span) cone_segment(S(collide_frame) start, S(collide_frame) end, fl
     to_width = exact_max(to_width, 0.0f);
     EXACT float3 from = below0 ? a : float3_add_scaled(a, way, cut);
     EXACT float3 to = below1 ? b : float3_add_scaled(a, way, cut);
-    from = cone_across(from);
-    to = cone_across(to);
+    from = collide_from_axis(from);
+    to = collide_from_axis(to);
     span = collide_side(span, from, to, from_width, to_width);
     if (span.misses)
         return span;
@@ -297,7 +287,7 @@ FN S(collide_span) cone_segment(S(collide_frame) start, S(collide_frame) end, fl
 /* Returns the distance of a point inside from the side. */
 FN float cone_depth(S(collide_frame) frame, float3 q)
 {
-    EXACT float3 across = cone_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float aside = float3_length(across);
     EXACT float width = cone_width(frame, q.y);
     EXACT float slope = cone_narrows(frame);
@@ -307,21 +297,16 @@ FN float cone_depth(S(collide_frame) frame, float3 q)
 
 FN uint cone_nearest(S(collide_frame) frame, float3 q)
 {
-    uint face = COLLIDE_SIDE;
-    EXACT float least = cone_depth(frame, q);
-    EXACT float lower = cone_end(frame) + q.y;
-    EXACT float upper = cone_end(frame) - q.y;
-    face = lower < least ? COLLIDE_LOWER : face;
-    least = exact_min(lower, least);
-    face = upper < least ? COLLIDE_UPPER : face;
-    return face;
+    EXACT float side = cone_depth(frame, q);
+    EXACT float end = cone_end(frame);
+    return collide_nearest_of(side, end, q);
 }
 
 FN float3 cone_normal(S(collide_frame) frame, uint face, float3 q)
 {
     EXACT float slope = cone_narrows(frame);
     EXACT float per_length = exact_rcp(cone_length(slope));
-    EXACT float3 across = cone_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float3 outwards = collide_side_normal(across);
     outwards.y = slope;
     EXACT float3 normal = float3_scale(outwards, per_length);

@@ -6,21 +6,22 @@
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
-REAL_FN S(ray_interval) cylinder_cross(S(kiln_draw_shape) s, real3 origin, real3 direction)
+REAL_FN S(ray_interval) cylinder_cross(S(kiln_draw_shape) s, S(shape_ray) ray)
 {
-    real3 towards = real3_towards(s.center, origin);
-    S(ray_interval) side = tube_cross(s, towards, direction);
-    S(ray_interval) ends = ends_cross(s, towards, direction);
+    real3 towards = real3_towards(s.center, ray.origin);
+    S(ray_interval) side = tube_cross(s, towards, ray.direction);
+    S(ray_interval) ends = ends_cross(s, towards, ray.direction);
     truth hits = side.near <= side.far;
     return ray_interval_of(real_max(side.near, ends.near),
                            real_select(hits, real_min(side.far, ends.far), real_all(-1e9f)));
 }
 
-REAL_FN S(shape_face) cylinder_face(S(kiln_draw_shape) s, real3 origin, real3 direction, real t)
+REAL_FN S(shape_face) cylinder_face(S(kiln_draw_shape) s, S(shape_ray) ray, real t)
 {
-    real3 towards = real3_towards(s.center, origin);
-    truth on_end = ends_cross(s, towards, direction).near > tube_cross(s, towards, direction).near;
-    real3 from = real3_sub(real3_add_scaled(origin, direction, t), real3_all(s.center));
+    real3 towards = real3_towards(s.center, ray.origin);
+    truth on_end =
+        ends_cross(s, towards, ray.direction).near > tube_cross(s, towards, ray.direction).near;
+    real3 from = real3_sub(real3_add_scaled(ray.origin, ray.direction, t), real3_all(s.center));
     real height = shape_along(s, from);
     real3 side = real3_normalize(shape_across(s, from, height));
     real3 end = real3_scale(real3_all(s.rows[1]), real_sign_one(height));
@@ -34,22 +35,13 @@ REAL_FN S(shape_face) cylinder_face(S(kiln_draw_shape) s, real3 origin, real3 di
 
 /* A cylinder as seen in a direction: a band along `up`, with round ends. */
 struct cylinder_seen {
-    real3 right, up;
-    /* Sine and cosine of the angle between the axis and the plane across the direction. */
-    real climb, slant;
-    real side; /* 1 if the axis points along `up`, -1 if against it */
+    S(axis_seen) axis;
 };
 
-/* Where a cylinder is seen along its axis, `right` is any vector across it. */
 REAL_FN S(cylinder_seen) cylinder_seen_along(S(kiln_draw_shape) s, real3 direction)
 {
     S(cylinder_seen) seen;
-    seen.climb = shape_along(s, direction);
-    seen.slant = real_sqrt(real_max(1.0f - seen.climb * seen.climb, real_all(1e-6f)));
-    real3 level = real3_scale(real3_cross(real3_all(s.rows[1]), direction), 1.0f / seen.slant);
-    seen.right = real3_select(seen.slant > 1e-3f, level, real3_all(s.rows[0]));
-    seen.up = real3_cross(direction, seen.right);
-    seen.side = real_sign_one(shape_along(s, seen.up));
+    seen.axis = axis_seen_along(s, direction);
     return seen;
 }
 
@@ -58,25 +50,26 @@ REAL_FN S(cylinder_seen) cylinder_seen_along(S(kiln_draw_shape) s, real3 directi
 REAL_FN S(light_cover) cylinder_cover(S(kiln_draw_shape) s, S(cylinder_seen) seen, real3 towards,
                                       S(light_way) way, truth near)
 {
+    S(axis_seen) axis = seen.axis;
     float radius = s.extent.w, half_height = s.extent.y;
-    real x = real3_dot(towards, seen.right), y = real3_dot(towards, seen.up);
+    real x = real3_dot(towards, axis.right), y = real3_dot(towards, axis.up);
     real ahead = real3_dot(towards, way.direction);
-    real along = real_clamp(-y * (1.0f / (seen.slant * seen.side)), -half_height, half_height);
-    real t = real_max(ahead + along * seen.climb, real_all(0.0f));
+    real along = real_clamp(-y * (1.0f / (axis.slant * axis.side)), -half_height, half_height);
+    real t = real_max(ahead + along * axis.climb, real_all(0.0f));
     real inside = real_sqrt(real_max(radius * radius - x * x, real_all(0.0f)));
-    real end = half_height * seen.slant + real_abs(seen.climb) * inside;
+    real end = half_height * axis.slant + real_abs(axis.climb) * inside;
     real disc = light_disc(way, t);
     real sides = strip_cover(radius - real_abs(x), radius + real_abs(x), disc);
     real ends = strip_cover(end - real_abs(y), end + real_abs(y), disc);
-    real at = real_max(-end, real_min(y, end)) * seen.side;
-    real height = -ahead * seen.climb - at * seen.slant; /* of the start above the middle */
-    real beside = -ahead * seen.slant + at * seen.climb; /* from the axis, towards the light */
-    real falls = real_sign_one(seen.climb);
-    real steep = falls * real_max(real_abs(seen.climb), real_all(1e-6f));
+    real at = real_max(-end, real_min(y, end)) * axis.side;
+    real height = -ahead * axis.climb - at * axis.slant; /* of the start above the middle */
+    real beside = -ahead * axis.slant + at * axis.climb; /* from the axis, towards the light */
+    real falls = real_sign_one(axis.climb);
+    real steep = falls * real_max(real_abs(axis.climb), real_all(1e-6f));
     S(light_cover) found;
     found.cover = sides * ends;
     found.distance = t;
-    found.leaves = real_min((inside - beside) / seen.slant, (falls * half_height - height) / steep);
+    found.leaves = real_min((inside - beside) / axis.slant, (falls * half_height - height) / steep);
     return found;
 }
 
@@ -85,14 +78,15 @@ REAL_FN S(light_cover) cylinder_cover(S(kiln_draw_shape) s, S(cylinder_seen) see
 REAL_FN truth cylinder_may_hide(S(kiln_draw_shape) s, S(cylinder_seen) seen, real3 towards,
                                 S(light_way) way)
 {
+    S(axis_seen) axis = seen.axis;
     float radius = s.extent.w;
-    real climb = seen.climb, height = -shape_along(s, towards);
+    real climb = axis.climb, height = -shape_along(s, towards);
     real3 aside = shape_across(s, towards, -height);
     truth beyond = truth_and(height * climb > 0.0f, real_abs(height) - s.extent.y > way.lit);
     truth beside = truth_and(real3_length(aside) - radius > way.lit,
                              -real3_dot(aside, way.direction) > way.lit);
-    return truth_and(axis_may_hide(s, towards, way, climb, real3_scale(seen.right, seen.slant),
-                                   seen.slant * seen.slant),
+    return truth_and(axis_may_hide(s, towards, way, climb, real3_scale(axis.right, axis.slant),
+                                   axis.slant * axis.slant),
                      truth_not(truth_or(beyond, beside)));
 }
 
@@ -147,16 +141,9 @@ REAL_FN real cylinder_reach(S(kiln_draw_shape) s, real3 way)
 #if defined(KILN_SHARED_COLLIDE_FRAME_H) && !defined(KILN_CYLINDER_COLLIDES)
 #define KILN_CYLINDER_COLLIDES
 
-/* Returns the vector from the axis. */
-FN float3 cylinder_across(float3 q)
-{
-    EXACT float3 y = FLOAT3(q.x, 0.0f, q.z);
-    return y;
-}
-
 FN bool cylinder_holds(S(collide_frame) frame, float3 q)
 {
-    EXACT float3 across = cylinder_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float excess = collide_round_excess(across, frame.radius);
     return excess < 0.0f && q.y < frame.extent.y && -q.y < frame.extent.y;
 }
@@ -164,36 +151,21 @@ FN bool cylinder_holds(S(collide_frame) frame, float3 q)
 FN S(collide_span) cylinder_segment(S(collide_frame) start, S(collide_frame) end, float3 a,
                                     float3 b)
 {
-    EXACT S(collide_span) span = collide_span_start();
-    EXACT float3 from = cylinder_across(a);
-    EXACT float3 to = cylinder_across(b);
-    EXACT float lower0 = start.extent.y + a.y;
-    EXACT float lower1 = end.extent.y + b.y;
-    EXACT float upper0 = start.extent.y - a.y;
-    EXACT float upper1 = end.extent.y - b.y;
-    span = collide_side(span, from, to, start.radius, end.radius);
-    span = collide_face(span, COLLIDE_LOWER, lower0, lower1);
-    span = collide_face(span, COLLIDE_UPPER, upper0, upper1);
+    EXACT S(collide_span) span = collide_barrel(start, end, a, b);
     return span;
 }
 
 FN uint cylinder_nearest(S(collide_frame) frame, float3 q)
 {
-    uint face = COLLIDE_SIDE;
-    EXACT float3 across = cylinder_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float aside = float3_length(across);
-    EXACT float least = frame.radius - aside;
-    EXACT float lower = frame.extent.y + q.y;
-    EXACT float upper = frame.extent.y - q.y;
-    face = lower < least ? COLLIDE_LOWER : face;
-    least = exact_min(lower, least);
-    face = upper < least ? COLLIDE_UPPER : face;
-    return face;
+    EXACT float side = frame.radius - aside;
+    return collide_nearest_of(side, frame.extent.y, q);
 }
 
 FN float3 cylinder_normal(S(collide_frame) frame, uint face, float3 q)
 {
-    EXACT float3 across = cylinder_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float3 normal = collide_side_normal(across);
     if (face != COLLIDE_SIDE)
         normal = collide_end_normal(face);
@@ -202,7 +174,7 @@ FN float3 cylinder_normal(S(collide_frame) frame, uint face, float3 q)
 
 FN float3 cylinder_put(S(collide_frame) frame, uint face, float3 q, float gap)
 {
-    EXACT float3 across = cylinder_across(q);
+    EXACT float3 across = collide_from_axis(q);
     EXACT float3 y = collide_side_put(frame, across, q, gap);
     if (face != COLLIDE_SIDE)
         y = collide_end_put(frame, face, q, gap);

@@ -5,13 +5,13 @@
 #if defined(KILN_SHARED_SHAPE_H) && !defined(KILN_PLANE_DRAWN)
 #define KILN_PLANE_DRAWN
 
-REAL_FN S(ray_interval) plane_cross(S(kiln_draw_shape) s, real3 origin, real3 direction)
+REAL_FN S(ray_interval) plane_cross(S(kiln_draw_shape) s, S(shape_ray) ray)
 {
-    real height = -shape_along(s, real3_towards(s.center, origin));
-    return ray_interval_of(ray_cross_plane(height, shape_along(s, direction)), real_all(2e9f));
+    real height = -shape_along(s, real3_towards(s.center, ray.origin));
+    return ray_interval_of(ray_cross_plane(height, shape_along(s, ray.direction)), real_all(2e9f));
 }
 
-REAL_FN S(shape_face) plane_face(S(kiln_draw_shape) s, real3 origin, real3 direction, real t)
+REAL_FN S(shape_face) plane_face(S(kiln_draw_shape) s, S(shape_ray) ray, real t)
 {
     S(shape_face) face;
     face.normal = real3_all(s.rows[1]);

@@ -180,11 +180,15 @@ FN S(sweep_path) sweep_past(S(sweep_path) before)
     return path;
 }
 
-/* Moves on from an impact, to the end if no other impact follows. */
-FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_state) left)
+/* Moves on from an impact, to the end if no other impact follows. left: the state behind it; from,
+ * blow: as for sweep_climb. */
+FN S(sweep_path) sweep_off(SIM_PARAM S(sweep_path) before, S(collide_hit) hit,
+                           S(collide_state) left, float3 from, float3 blow)
 {
     EXACT S(sweep_path) path = before;
     path.now = left;
+    if (before.curved)
+        path.now = sweep_climb(SIM left, before, from, blow);
     path.hit = hit;
     path.later = path.until;
     path.aim = path.until;
@@ -255,9 +259,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
             } else {
                 if (SWEEP_TOUCHES && path.bounces == 0u)
                     way.first = sweep_touch(SIM left, hit, answer.radius);
-                if (path.curved)
-                    left = sweep_climb(SIM left, path, at.position, blow);
-                path = sweep_off(path, hit, left);
+                path = sweep_off(SIM path, hit, left, at.position, blow);
             }
         }
         path.ahead = sweep_ahead(SIM path, life);

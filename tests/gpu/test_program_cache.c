@@ -118,7 +118,7 @@ static void a_second_program_comes_from_the_cache(void **state)
     assert_int_equal(list(names, 2), 1);
 }
 
-/* What a driver captures belongs to a program that is loaded, too. */
+/* A program that is loaded captures the outputs that it was built with. */
 static void captured_outputs_come_along(void **state)
 {
     (void)state;
@@ -248,7 +248,7 @@ static void forge(const char *file, const char *name, uint32_t format, const voi
 {
     unsigned char bytes[4096] = {0};
     assert_true(HEAD_SIZE + size <= sizeof bytes);
-    memcpy(bytes, name, strlen(name));
+    memcpy(bytes, name, strlen(name) + 1);
     memcpy(bytes + NAME_SIZE, &format, sizeof format);
     if (size > 0)
         memcpy(bytes + HEAD_SIZE, binary, size);

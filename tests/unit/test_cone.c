@@ -149,13 +149,13 @@ static void rays_enter_and_leave(void **state)
             first = first < 0.0f ? t : first;
             last = t;
         }
-        const struct ray_interval at = cone_cross(cone, origin, way);
+        const struct ray_interval at = cone_cross(cone, shape_ray_of(origin, way));
         if (last - first < 5 * step || is_inside(&cone, origin))
             continue; /* a ray that grazes an edge, or starts inside */
         hits++;
         assert_near((double)at.near, (double)first, 2 * (double)step);
         assert_near((double)at.far, (double)last, 2 * (double)step);
-        const struct shape_face face = cone_face(cone, origin, way, at.near);
+        const struct shape_face face = cone_face(cone, shape_ray_of(origin, way), at.near);
         bases += face.number == 1.0f;
         assert_near((double)float3_dot(face.normal, face.normal), 1.0, 1e-4);
         assert_true(float3_dot(face.normal, way) < 1e-3f);

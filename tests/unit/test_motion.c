@@ -318,7 +318,7 @@ static void every_row_tells_the_truth(void **state)
         const bool one_value = seen->row->min == 1 && seen->row->max == 1 && !seen->row->fallback;
         if (is_group || one_value) /* nothing about it can be changed */
             continue;
-        /* What belongs to the view may come to the state by way of another row: rate: auto. */
+        /* A row of the view may change the state by way of another row: rate: auto. */
         const bool looks = seen->row->parts == kiln_row_look;
         const bool moves = !looks && seen->row->parts != kiln_row_view;
         if (!seen->changed)

@@ -86,8 +86,8 @@ static void keys_of_any_span_are_sorted(void **state)
     kiln_threads_destroy(&threads);
 }
 
-/* As many as a scene may have: ascending keys, and places where keys are equal, so that
- * none can occur twice. */
+/* Sorts as many particles as a scene may have: their keys ascend, and some are equal, so that none
+ * can occur twice. */
 static void the_most_particles_are_sorted(void **state)
 {
     (void)state;

@@ -39,12 +39,11 @@ static bool create_program(struct kiln_backdrop_gl *stage, struct kiln_error *er
 {
     const struct kiln_shape_features features = kiln_shape_features(stage->scene);
     stage->stores_shapes = features.stored;
-    char defines[KILN_SHAPE_DEFINES];
-    kiln_shape_defines(&features, defines);
+    struct kiln_text defines = {0};
+    kiln_shape_defines(&features, &defines);
     const struct kiln_program_params params = {.vertex = "draw/backdrop/backdrop.vert",
-                                               .fragment = "draw/backdrop/backdrop.frag",
-                                               .defines = defines};
-    stage->program = kiln_program_create(stage->device, &params, error);
+                                               .fragment = "draw/backdrop/backdrop.frag"};
+    stage->program = kiln_program_create_defined(stage->device, &params, &defines, error);
     return stage->program != 0;
 }
 

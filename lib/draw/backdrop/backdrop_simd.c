@@ -32,7 +32,8 @@ static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture 
                                              const struct kiln_casters *casters)
 {
     const struct kiln_draw_backdrop *b = p->frame->backdrop;
-    struct grid_lights lights = {.sky = kiln_shapes_hide_sky(p->frame->shapes)};
+    struct grid_lights lights = {.sky = p->frame->shapes->counts.z > 0 ||
+                                        kiln_shape_set_any(&p->frame->all_casters->sun_objects)};
     for (uint32_t i = 0; i < b->counts.y; i++) {
         if (b->lights[i].casters.y || kiln_shape_set_any(&casters->lamps[i]))
             kiln_bits_add(lights.lamps.words, i);

@@ -151,7 +151,7 @@ static bool create_programs(struct kiln_meshes_gl *m, struct kiln_error *error)
 {
     char defines[80];
     snprintf(defines, sizeof defines, "%s%s", m->painted ? "#define PAINT 1\n" : "",
-             m->count > KILN_FEW_MESHES ? KILN_MANY_MESHES : "");
+             m->count > KILN_FEW_MESHES ? "#define MANY_MESHES 1\n" : "");
     m->hit_program =
         kiln_program_create(m->device,
                             &(struct kiln_program_params){.vertex = "draw/backdrop/meshes.vert",

@@ -37,6 +37,7 @@ SIMD void keep_nearer(struct ray_hit *nearest, vi nearer, vf t, vf surface, stru
 SIMD void trace_shapes(const struct kiln_ray_frame *frame, const struct kiln_shape_set *shapes,
                        const struct ray *ray, struct ray_hit *nearest)
 {
+    const struct shape_ray all = shape_ray_of(ray->origin, ray->direction);
     struct kiln_shape_walk walk = kiln_shape_walk_begin(shapes);
     while (kiln_shape_walk_next(&walk)) {
         const int i = (int)walk.shape;
@@ -44,11 +45,11 @@ SIMD void trace_shapes(const struct kiln_ray_frame *frame, const struct kiln_sha
         switch (shape->kind.x) {
 #define TRACE(KIND, name)                                                                          \
     case SHAPE_##KIND: {                                                                           \
-        const struct ray_interval at = name##_cross(*shape, ray->origin, ray->direction);          \
+        const struct ray_interval at = name##_cross(*shape, all);                                  \
         const vi nearer = ray_meets(at, nearest->t);                                               \
         if (!any(nearer))                                                                          \
             break;                                                                                 \
-        const struct shape_face face = name##_face(*shape, ray->origin, ray->direction, at.near);  \
+        const struct shape_face face = name##_face(*shape, all, at.near);                          \
         keep_nearer(nearest, nearer, at.near, face.number + (float)KILN_SURFACE_SHAPE(i),          \
                     face.normal, shape->color);                                                    \
         break;                                                                                     \

@@ -6,9 +6,9 @@
 #include "draw/light/lighting.h"
 #include "gpu/device.h"
 
-/* What frames of a scene may have: smoke that dims lights, a sun, lamps or light of fire, opaque
- * particles, those among them that are meshes with silhouettes, shadows of meshes and of opaque
- * particles from lamps. */
+/* Names what frames of a scene may have: smoke that dims lights, a sun, lamps or light of fire,
+ * opaque particles, those among them that are meshes with silhouettes, shadows of meshes and of
+ * opaque particles from lamps. */
 struct kiln_lighting_textures {
     bool smoke, sun, lamps, solids, instances, lamp_maps, lamp_solids;
 };

@@ -7,12 +7,11 @@
 #include "draw/moment/appearance_blocks.h"
 
 /* Writes the part of the sun that each particle sees past shapes: 0 to 1, and 1 where no particle
- * lives. */
-typedef void kiln_sun_shade_block(const struct kiln_draw_shapes *shapes,
-                                  const struct kiln_shape_seen *from_sun,
-                                  const struct kiln_sun_frame *sun,
-                                  const struct kiln_appearance_block *block,
-                                  float visible[KILN_LANES]);
+ * lives. casters: kiln_shapes_that_hide. */
+typedef void
+kiln_sun_shade_block(const struct kiln_draw_shapes *shapes, const struct kiln_shape_set *casters,
+                     const struct kiln_shape_seen *from_sun, const struct kiln_sun_frame *sun,
+                     const struct kiln_appearance_block *block, float visible[KILN_LANES]);
 KILN_SIMD_DECLARE(kiln_sun_shade_block, kiln_sun_shade_block);
 
 /* Writes the word of each lane for four lights. count: how many of them there are. */

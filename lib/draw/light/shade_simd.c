@@ -30,13 +30,13 @@ static struct balls load_balls(const struct kiln_appearance_block *block, uint32
 }
 
 void KILN_SIMD_NAME(kiln_sun_shade_block)(const struct kiln_draw_shapes *shapes,
+                                          const struct kiln_shape_set *casters,
                                           const struct kiln_shape_seen *from_sun,
                                           const struct kiln_sun_frame *sun,
                                           const struct kiln_appearance_block *block,
                                           float visible[KILN_LANES])
 {
     const float4 towards = {sun->towards.x, sun->towards.y, sun->towards.z, 0.0f};
-    const struct kiln_shape_set casters = kiln_shapes_that_hide(shapes);
     for (uint32_t first = 0; first < KILN_LANES; first += LANES) {
         const struct balls balls = load_balls(block, first);
         struct light_receiver r = {.origin = balls.at,
@@ -44,7 +44,7 @@ void KILN_SIMD_NAME(kiln_sun_shade_block)(const struct kiln_draw_shapes *shapes,
                                    .seen = from_sun,
                                    .active = balls.alive,
                                    .visible = vf_all(1.0f)};
-        hide_by_shapes(shapes, &casters, &r);
+        hide_by_shapes(shapes, casters, &r);
         memcpy(visible + first, &r.visible, sizeof r.visible);
     }
 }

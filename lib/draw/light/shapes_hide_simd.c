@@ -56,13 +56,13 @@ SIMD void hide_by_each(const struct kiln_draw_shapes *shapes, uint32_t first, ui
 }
 
 /* Returns the lanes where a shape blocks rays to a light without size. */
-SIMD vi blocks(const struct kiln_draw_shape *shape, const struct light_receiver *r)
+SIMD vi blocks(const struct kiln_draw_shape *shape, const struct shape_ray *ray)
 {
     struct ray_interval at = ray_interval_of(vf_all(1.0f), vf_all(-1.0f));
     switch (shape->kind.x) {
 #define CROSS(KIND, name)                                                                          \
     case SHAPE_##KIND:                                                                             \
-        at = name##_cross(*shape, r->origin, r->way.direction);                                    \
+        at = name##_cross(*shape, *ray);                                                           \
         break;
         KILN_SHAPES(CROSS)
 #undef CROSS
@@ -75,13 +75,14 @@ SIMD void block_by_each(const struct kiln_draw_shapes *shapes, uint32_t first, u
                         struct light_receiver *receiver)
 {
     struct light_receiver r = *receiver;
+    const struct shape_ray ray = shape_ray_of(r.origin, r.way.direction);
     for (; casters && any(r.active); casters &= casters - 1) {
         const struct kiln_draw_shape *shape =
             &shapes->shapes[first + (uint32_t)__builtin_ctz(casters)];
         const struct vf3 towards = vf3_towards(shape->center, r.origin);
         const vi near = r.active & light_meets_sphere(r.way, towards, shape->center.w);
         if (any(near))
-            hide_light(&r, near & blocks(shape, &r), vf_all(1.0f));
+            hide_light(&r, near & blocks(shape, &ray), vf_all(1.0f));
     }
     receiver->active = r.active;
     receiver->visible = r.visible;

@@ -18,6 +18,7 @@ struct kiln_sun_shade {
     struct kiln_sun_frame sun;  /* of the current frame, as are the shapes */
     const struct kiln_draw_shapes *shapes;
     const struct kiln_shape_seen *from_sun;
+    struct kiln_shape_set casters;
     float *visible; /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
@@ -71,6 +72,7 @@ static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment
     shade->sun = moment->sun;
     shade->shapes = &moment->shapes;
     shade->from_sun = moment->from_sun;
+    shade->casters = kiln_shapes_that_hide(shade->shapes);
     for (uint32_t i = 0; i < shade->shapes->counts.z; i++)
         kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes->meshes[i], &shade->sun);
 }
@@ -101,7 +103,7 @@ static void shade_block(const struct shade_job *job, uint32_t first)
     struct kiln_appearance_block block;
     alignas(64) float visible[KILN_LANES];
     job->find(&job->system, first, &block);
-    job->shade_block(shade->shapes, shade->from_sun, &shade->sun, &block, visible);
+    job->shade_block(shade->shapes, &shade->casters, shade->from_sun, &shade->sun, &block, visible);
     for (uint32_t i = 0; i < KILN_LANES && shade->shapes->counts.z > 0; i++) {
         const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
         visible[i] *= block.alive[i] ? past_meshes(shade, ball) : 1.0f;

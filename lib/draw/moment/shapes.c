@@ -83,32 +83,38 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     return features;
 }
 
-void kiln_shape_defines(const struct kiln_shape_features *features, char out[KILN_SHAPE_DEFINES])
+void kiln_shape_defines(const struct kiln_shape_features *features, struct kiln_text *defines)
 {
-    static const char *const rows[SHAPE_KINDS] = {
-#define ROW_OF(kind, name) [SHAPE_##kind] = " ROW(" #kind ", " #name ")",
-        KILN_SHAPES(ROW_OF)
-#undef ROW_OF
+    const struct {
+        const char *name;
+        bool is_defined;
+    } rows[] = {
+        {"SHAPES_STORED", features->stored},
+        {"MESHES", features->meshes},
+        {"MANY_MESHES", features->many_meshes},
+        {"PAINT", features->paint},
+        {"SOLIDS", features->solids},
+        {"INSTANCES", features->instances},
+        {"FLOOR_IMAGE", features->floor_image},
+        {"FLOOR_GLOSS", features->floor_gloss},
+        {"SKY_IMAGE", features->sky_image},
+        {"NO_SUN", !features->sun},
+        {"NO_SMOKE", !features->smoke},
+        {"NO_LAMPS", !features->lamps},
+        {"NO_LAMP_SHADOWS", !features->lamp_shadows},
+        {"NO_RECTANGLES", !features->rectangles},
     };
-    int length = snprintf(
-        out, KILN_SHAPE_DEFINES, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s",
-        features->stored ? "#define SHAPES_STORED 1\n" : "",
-        features->meshes ? "#define MESHES 1\n" : "", features->many_meshes ? KILN_MANY_MESHES : "",
-        features->paint ? "#define PAINT 1\n" : "", features->solids ? "#define SOLIDS 1\n" : "",
-        features->instances ? "#define INSTANCES 1\n" : "",
-        features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
-        features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
-        features->sky_image ? "#define SKY_IMAGE 1\n" : "",
-        features->sun ? "" : "#define NO_SUN 1\n", features->smoke ? "" : "#define NO_SMOKE 1\n",
-        features->lamps ? "" : "#define NO_LAMPS 1\n",
-        features->lamp_shadows ? "" : "#define NO_LAMP_SHADOWS 1\n",
-        features->rectangles ? "" : "#define NO_RECTANGLES 1\n");
-    length +=
-        snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "#define KILN_SHAPES(ROW)");
-    for (uint32_t kind = 0; kind < SHAPE_KINDS; kind++)
-        length += snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "%s",
-                           features->kinds >> kind & 1 ? rows[kind] : "");
-    snprintf(out + length, (size_t)(KILN_SHAPE_DEFINES - length), "\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (rows[i].is_defined)
+            kiln_text_add(defines, "#define %s 1\n", rows[i].name);
+    }
+    kiln_text_add(defines, "#define KILN_SHAPES(ROW)");
+#define ADD_ROW(KIND, name)                                                                        \
+    if (features->kinds >> SHAPE_##KIND & 1)                                                       \
+        kiln_text_add(defines, " ROW(" #KIND ", " #name ")");
+    KILN_SHAPES(ADD_ROW)
+#undef ADD_ROW
+    kiln_text_add(defines, "\n");
 }
 
 static float4 with_w(float3 v, float w)

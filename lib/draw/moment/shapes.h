@@ -4,6 +4,7 @@
 #define KILN_DRAW_MOMENT_SHAPES_H
 
 #include "asset/geometry/mesh.h"
+#include "base/text.h"
 #include "draw/moment/shape_set.h"
 #include "scene/scene.h"
 #include "shared/shape_layout.h"
@@ -21,15 +22,11 @@ struct kiln_shape_features {
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
-/* The most meshes whose numbers fit four bits in hits on meshes (mesh_hit.glsl), and the define of
- * a scene with more. */
-#define KILN_FEW_MESHES  15
-#define KILN_MANY_MESHES "#define MANY_MESHES 1\n"
+/* The most meshes whose numbers fit four bits in hits on meshes (mesh_hit.glsl). */
+#define KILN_FEW_MESHES 15
 
-#define KILN_SHAPE_DEFINES 660 /* bytes of the text of kiln_shape_defines */
-
-/* Writes the "#define" lines of the variant, as kiln_program_params takes them. */
-void kiln_shape_defines(const struct kiln_shape_features *features, char out[KILN_SHAPE_DEFINES]);
+/* Adds the "#define" lines of the variant, as kiln_program_params takes them. */
+void kiln_shape_defines(const struct kiln_shape_features *features, struct kiln_text *defines);
 
 /* Returns the unit vector along v, or up where v has no length. */
 float3 kiln_direction(float3 v);
@@ -63,13 +60,6 @@ static inline struct kiln_shape_set kiln_shapes_that_hide(const struct kiln_draw
     }
     kiln_shape_set_trim(&hide);
     return hide;
-}
-
-/* Returns whether objects may hide a part of the sky from surfaces. */
-static inline bool kiln_shapes_hide_sky(const struct kiln_draw_shapes *shapes)
-{
-    const struct kiln_shape_set hide = kiln_shapes_that_hide(shapes);
-    return shapes->counts.z > 0 || kiln_shape_set_any(&hide);
 }
 
 #endif

@@ -21,16 +21,13 @@ struct kiln_instances_gl {
 static bool create_program(struct kiln_instances_gl *m, struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(m->scene);
-    char shapes[KILN_SHAPE_DEFINES], defines[KILN_SHAPE_DEFINES + 64];
-    kiln_shape_defines(&features, shapes);
-    snprintf(defines, sizeof defines, "%s%s", shapes,
-             kiln_scene_spins(m->scene) ? "#define SPINS 1\n" : "");
-    m->program =
-        kiln_program_create(m->device,
-                            &(struct kiln_program_params){.vertex = "draw/solids/instances.vert",
-                                                          .fragment = "draw/solids/instances.frag",
-                                                          .defines = defines},
-                            error);
+    const struct kiln_program_params files = {.vertex = "draw/solids/instances.vert",
+                                              .fragment = "draw/solids/instances.frag"};
+    struct kiln_text defines = {0};
+    kiln_shape_defines(&features, &defines);
+    if (kiln_scene_spins(m->scene))
+        kiln_text_add(&defines, "#define SPINS 1\n");
+    m->program = kiln_program_create_defined(m->device, &files, &defines, error);
     if (!m->program)
         return false;
     m->system = glGetUniformLocation(m->program, "drawn_system");

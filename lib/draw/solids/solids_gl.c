@@ -41,19 +41,17 @@ static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scen
                             struct kiln_error *error)
 {
     const struct kiln_shape_features features = kiln_shape_features(scene);
-    char shapes[KILN_SHAPE_DEFINES], defines[KILN_SHAPE_DEFINES + 64];
-    kiln_shape_defines(&features, shapes);
-    snprintf(defines, sizeof defines, "%s%s%s", shapes,
-             kiln_looks_patterned(scene) ? "#define PATTERN 1\n" : "",
-             kiln_scene_spins(scene) ? "#define SPINS 1\n" : "");
     const struct kiln_program_params cast = {.vertex = "draw/solids/solids_spheres.vert",
                                              .geometry = "draw/solids/solids_spheres.geom",
-                                             .fragment = "draw/solids/solids_spheres.frag",
-                                             .defines = defines};
+                                             .fragment = "draw/solids/solids_spheres.frag"};
     const struct kiln_program_params resolve = {.vertex = "gpu/framebuffer_fill.vert",
                                                 .fragment = "draw/solids/solids_resolve.frag"};
     if (has_spheres(scene)) {
-        stage->cast = kiln_program_create(stage->device, &cast, error);
+        struct kiln_text defines = {0};
+        kiln_shape_defines(&features, &defines);
+        kiln_text_add(&defines, "%s%s", kiln_looks_patterned(scene) ? "#define PATTERN 1\n" : "",
+                      kiln_scene_spins(scene) ? "#define SPINS 1\n" : "");
+        stage->cast = kiln_program_create_defined(stage->device, &cast, &defines, error);
         if (!stage->cast)
             return false;
     }

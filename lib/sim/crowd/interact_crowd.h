@@ -47,4 +47,23 @@ static inline void crowd_note(struct kiln_interact_crowd *crowd, size_t body, ui
     crowd->partners[body] = crowd->later ? contact_later(partner) : partner;
 }
 
+/* Finds the partner of body `self`, or INTERACT_NOBODY. */
+typedef uint32_t crowd_find(const struct kiln_interact_crowd *crowd, uint32_t self);
+
+/* Finds and notes the partners of bodies begin to end - 1. It is inlined with the function that it
+ * calls for each. */
+static inline __attribute__((always_inline)) void
+crowd_find_partners(struct kiln_interact_crowd *crowd, size_t begin, size_t end, crowd_find *find)
+{
+    uint32_t met = 0;
+    for (size_t i = begin; i < end; i++) {
+        if (crowd_sits_out(crowd, i))
+            continue;
+        const uint32_t partner = find(crowd, (uint32_t)i);
+        crowd_note(crowd, i, partner);
+        met += partner != INTERACT_NOBODY;
+    }
+    atomic_fetch_add(&crowd->met, met);
+}
+
 #endif

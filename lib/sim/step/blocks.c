@@ -222,11 +222,7 @@ static bool create_program(GLuint *program, struct kiln_device *device,
         return true;
     kiln_text_add(&defines, "%s", files.defines ? files.defines : "");
     add_defines(&defines, device, scene, params, families);
-    files.defines = defines.data;
-    *program = defines.failed ? 0 : kiln_program_create(device, &files, error);
-    if (defines.failed)
-        kiln_error_no_memory(error, "the defines of a program");
-    kiln_text_free(&defines);
+    *program = kiln_program_create_defined(device, &files, &defines, error);
     return *program != 0;
 }
 

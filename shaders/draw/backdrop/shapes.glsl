@@ -1,6 +1,7 @@
 /* Finds the nearest shape of the backdrop that a ray hits, and how much of the sky and of a light
  * shapes leave visible from a point. shared/shapes.h lists the kinds of shapes, each of which has a
- * loop here. The loops have no branch, since software GL runs both sides of one. */
+ * loop here, since software GL runs both sides of a branch: in one loop, each shape would cost as
+ * much as one of every kind. */
 #include "shared/shapes.h"
 
 #ifdef SHAPES_STORED
@@ -17,17 +18,18 @@
 void trace_shapes(vec3 origin, vec3 direction, inout hit nearest)
 {
     int found;
+    shape_ray ray = shape_ray_of(origin, direction);
 #define TRACE(KIND, name)                                                                          \
     found = -1;                                                                                    \
     for (int i = KILN_SHAPES_FROM(SHAPE_##KIND); i < KILN_SHAPES_FROM(SHAPE_##KIND + 1u); i++) {   \
-        ray_interval at = name##_cross(SHAPE[i], origin, direction);                               \
+        ray_interval at = name##_cross(SHAPE[i], ray);                               \
         if (ray_meets(at, nearest.t)) {                                                            \
             nearest.t = at.near;                                                                   \
             found = i;                                                                             \
         }                                                                                          \
     }                                                                                              \
     if (found >= 0) {                                                                              \
-        shape_face face = name##_face(SHAPE[found], origin, direction, nearest.t);                 \
+        shape_face face = name##_face(SHAPE[found], ray, nearest.t);                 \
         nearest.normal = face.normal;                                                              \
         nearest.albedo = SHAPE[found].color.rgb;                                                   \
         nearest.surface = KILN_SURFACE_SHAPE(found) + int(face.number);                            \

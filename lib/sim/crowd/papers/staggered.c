@@ -179,19 +179,15 @@ static bool sort_into_grids(struct kiln_interact_crowd *crowd, struct kiln_inter
     return true;
 }
 
+static uint32_t find_partner(const struct kiln_interact_crowd *crowd, uint32_t self)
+{
+    return stagger_find(&crowd->view, self, crowd->count);
+}
+
 static void find_partners(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    struct kiln_interact_crowd *crowd = context;
-    uint32_t met = 0;
-    for (size_t i = begin; i < end; i++) {
-        if (crowd_sits_out(crowd, i))
-            continue;
-        const uint32_t partner = stagger_find(&crowd->view, (uint32_t)i, crowd->count);
-        crowd_note(crowd, i, partner);
-        met += partner != INTERACT_NOBODY;
-    }
-    atomic_fetch_add(&crowd->met, met);
+    crowd_find_partners(context, begin, end, find_partner);
 }
 
 /* ---- in GL ----------------------------------------------------------------------------------- */
