@@ -161,6 +161,9 @@ struct kiln_draw_light {
     float4 up;    /* to its upper edge, m; w: 1 / (cosine of the inner cone - of the outer) */
 };
 
+/* The most lights of a picture: lamps of the scene, and those of fire. */
+#define KILN_MOST_LAMPS (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS)
+
 /* Sky, floor, sun and lights. */
 struct kiln_draw_backdrop {
     float4 sky_top;       /* w: brightness of the sun's disc, in parts of its colour */
@@ -171,7 +174,7 @@ struct kiln_draw_backdrop {
     float4 sun_color;     /* irradiance; w: 1 if each particle has a value of shade, or 0 */
     /* unused; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
     uint4 counts;
-    S(kiln_draw_light) lights[KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS];
+    S(kiln_draw_light) lights[KILN_MOST_LAMPS];
     float4 sun_to_grid[3]; /* rows: world positions to the grids of smoke (smoke_shadow.glsl) */
     float4 sky_to_grid[3];
 };

@@ -10,7 +10,8 @@
 
 /* ---- frames ---------------------------------------------------------------------------------- */
 
-/* Turns a vector of the world into the frame of a shape. In C, most shapes are spared this. */
+/* Turns a vector of the world into the frame of a shape. In C, boxes along the axes of the world
+ * skip it. */
 REAL_FN real3 shape_into(S(kiln_draw_shape) s, real3 v)
 {
 #ifndef GL_core_profile
@@ -121,6 +122,28 @@ struct shape_face {
 
 /* ---- shapes around an axis ------------------------------------------------------------------- */
 
+/* Returns the t at which a ray enters and leaves the round side of a cylinder without ends. */
+REAL_FN S(ray_interval) tube_cross(S(kiln_draw_shape) s, real3 towards, real3 direction)
+{
+    real height = shape_along(s, towards), climb = shape_along(s, direction);
+    real3 flat_towards = shape_across(s, towards, height);
+    real3 flat_direction = shape_across(s, direction, climb);
+    real a = 1.0f / real_max(real3_dot(flat_direction, flat_direction), real_all(1e-12f));
+    real middle = real3_dot(flat_towards, flat_direction) * a;
+    real3 across = real3_add_scaled(flat_towards, flat_direction, -middle);
+    real inside = (s.extent.w * s.extent.w - real3_dot(across, across)) * a;
+    real extent = real_sqrt(real_max(inside, real_all(0.0f)));
+    return ray_interval_or_miss(inside > 0.0f, middle - extent, middle + extent);
+}
+
+/* Returns the t at which a ray crosses the planes of a cylinder's ends. */
+REAL_FN S(ray_interval) ends_cross(S(kiln_draw_shape) s, real3 towards, real3 direction)
+{
+    real inverse = ray_inverse(shape_along(s, direction));
+    real middle = shape_along(s, towards) * inverse, extent = s.extent.y * real_abs(inverse);
+    return ray_interval_of(middle - extent, middle + extent);
+}
+
 /* An axis as seen in a direction. */
 struct axis_seen {
     real3 right, up; /* unit, across the direction; the axis lies along `up` */
@@ -129,7 +152,8 @@ struct axis_seen {
     real side; /* 1 if the axis points along `up`, -1 if against it */
 };
 
-/* Where a shape is seen along its axis, `right` is any vector across the axis. */
+/* Returns a shape's axis as seen in a direction. If that is along the axis, `right` is any vector
+ * across it. */
 REAL_FN S(axis_seen) axis_seen_along(S(kiln_draw_shape) s, real3 direction)
 {
     S(axis_seen) seen;
@@ -140,6 +164,24 @@ REAL_FN S(axis_seen) axis_seen_along(S(kiln_draw_shape) s, real3 direction)
     seen.up = real3_cross(direction, seen.right);
     seen.side = real_sign_one(shape_along(s, seen.up));
     return seen;
+}
+
+/* Returns where a cone of light may meet a shape around an axis, however long: where the distance
+ * between the axis and the middle of the cone is no more than their radii. A cone that shrinks
+ * towards the light is wider behind its start, where the ball that is lit begins. climb: the
+ * cosine between the axis and the light; across: across both, as long as the axis is without its
+ * part along the light; square: of that length. */
+REAL_FN truth axis_may_hide(S(kiln_draw_shape) s, real3 towards, S(light_way) way, real climb,
+                            real3 across, real square)
+{
+    float radius = s.extent.w;
+    real far = real3_dot(towards, way.direction) + real_abs(climb) * s.extent.y + radius;
+    real shrink = real_max(-way.spread, real_all(0.0f)) * way.lit;
+    real wide = light_widest(way, far) + shrink + (radius + 1e-3f);
+    real apart = real3_dot(towards, across);
+    /* Rounding alone decides `across` where the axis is along the light. */
+    real noise = 1e-12f * real3_dot(towards, towards);
+    return apart * apart <= wide * wide * square + noise;
 }
 
 /* ---- the sky beside shapes ------------------------------------------------------------------- */

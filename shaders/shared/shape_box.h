@@ -30,6 +30,12 @@ REAL_FN S(ray_interval) box_interval(S(ray_slabs) s)
                            real_min(real_min(s.far.x, s.far.y), s.far.z));
 }
 
+/* Returns how far a box extends from its centre along a unit vector of its frame, m. */
+REAL_FN real box_extent(float4 halves, real3 way)
+{
+    return real_abs(way.x) * halves.x + real_abs(way.y) * halves.y + real_abs(way.z) * halves.z;
+}
+
 /* Returns ray_inverse3 of a ray's direction along the axes of a box. */
 REAL_FN real3 box_ray_inverse(S(kiln_draw_shape) s, S(shape_ray) ray)
 {
@@ -222,8 +228,7 @@ REAL_FN truth box_may_hide(S(kiln_draw_shape) s, S(box_seen) seen, real3 towards
 {
     real3 direction = seen.direction, inverse = seen.inverse;
     real3 to_box = shape_into(s, towards);
-    real extent = real_abs(direction.x) * s.extent.x + real_abs(direction.y) * s.extent.y +
-                  real_abs(direction.z) * s.extent.z;
+    real extent = box_extent(s.extent, direction);
     real grow = light_widest(way, real3_dot(to_box, direction) + extent) + 1e-3f;
     S(ray_slabs) at = box_slabs(to_box, s.extent, inverse);
     real3 more =
@@ -268,10 +273,9 @@ REAL_FN truth box_is_smooth(S(kiln_draw_shape) s, real3 towards, S(light_way) wa
 REAL_FN real box_sky(S(kiln_draw_shape) s, real3 towards, real3 normal)
 {
     real3 to_box = shape_into(s, towards), facing = shape_into(s, normal);
-    real reach = real_abs(facing.x) * s.extent.x + real_abs(facing.y) * s.extent.y +
-                 real_abs(facing.z) * s.extent.z;
     float size = exact_min(exact_min(s.extent.x, s.extent.y), s.extent.z);
-    return sky_beside(to_box, facing, box_distance(s.extent, to_box), size, reach);
+    return sky_beside(to_box, facing, box_distance(s.extent, to_box), size,
+                      box_extent(s.extent, facing));
 }
 
 /* ---- places ---------------------------------------------------------------------------------- */
@@ -290,9 +294,7 @@ REAL_FN truth box_contains(S(kiln_draw_shape) s, real3 from)
 
 REAL_FN real box_reach(S(kiln_draw_shape) s, real3 way)
 {
-    real3 there = shape_into(s, way);
-    return real_abs(there.x) * s.extent.x + real_abs(there.y) * s.extent.y +
-           real_abs(there.z) * s.extent.z;
+    return box_extent(s.extent, shape_into(s, way));
 }
 
 #endif

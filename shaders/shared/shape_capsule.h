@@ -18,28 +18,6 @@ REAL_FN S(ray_interval) ball_cross(real3 towards, float radius, real3 direction)
     return ray_interval_or_miss(inside > 0.0f, middle - extent, middle + extent);
 }
 
-/* Returns the t at which a ray enters and leaves the round side of a cylinder without ends. */
-REAL_FN S(ray_interval) tube_cross(S(kiln_draw_shape) s, real3 towards, real3 direction)
-{
-    real height = shape_along(s, towards), climb = shape_along(s, direction);
-    real3 flat_towards = shape_across(s, towards, height);
-    real3 flat_direction = shape_across(s, direction, climb);
-    real a = 1.0f / real_max(real3_dot(flat_direction, flat_direction), real_all(1e-12f));
-    real middle = real3_dot(flat_towards, flat_direction) * a;
-    real3 across = real3_add_scaled(flat_towards, flat_direction, -middle);
-    real inside = (s.extent.w * s.extent.w - real3_dot(across, across)) * a;
-    real extent = real_sqrt(real_max(inside, real_all(0.0f)));
-    return ray_interval_or_miss(inside > 0.0f, middle - extent, middle + extent);
-}
-
-/* Returns the t at which a ray crosses the planes of a cylinder's ends. */
-REAL_FN S(ray_interval) ends_cross(S(kiln_draw_shape) s, real3 towards, real3 direction)
-{
-    real inverse = ray_inverse(shape_along(s, direction));
-    real middle = shape_along(s, towards) * inverse, extent = s.extent.y * real_abs(inverse);
-    return ray_interval_of(middle - extent, middle + extent);
-}
-
 /* Returns the interval of two convex shapes whose union is convex. */
 REAL_FN S(ray_interval) ray_either(S(ray_interval) a, S(ray_interval) b)
 {
@@ -86,7 +64,7 @@ REAL_FN S(shape_face) capsule_face(S(kiln_draw_shape) s, S(shape_ray) ray, real 
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* A shape around an axis, as seen in a direction. */
+/* A capsule as seen in a direction. */
 struct capsule_seen {
     real climb;   /* cosine between the axis and the direction */
     real3 level;  /* the axis without its part along the direction */
@@ -124,23 +102,6 @@ REAL_FN S(light_cover) capsule_cover(S(kiln_draw_shape) s, S(capsule_seen) seen,
     found.distance = t;
     found.leaves = t + real_sqrt(real_max(radius * radius - square, real_all(0.0f)));
     return found;
-}
-
-/* Returns where a cone of light may meet a shape around an axis, however long: where the distance
- * between the axis and the middle of the cone is no more than their radii. A cone that shrinks
- * towards the light is wider behind its start, where the ball that is lit begins. climb, across: as
- * of struct capsule_seen; square: of the length of `across`. */
-REAL_FN truth axis_may_hide(S(kiln_draw_shape) s, real3 towards, S(light_way) way, real climb,
-                            real3 across, real square)
-{
-    float radius = s.extent.w;
-    real far = real3_dot(towards, way.direction) + real_abs(climb) * s.extent.y + radius;
-    real shrink = real_max(-way.spread, real_all(0.0f)) * way.lit;
-    real wide = light_widest(way, far) + shrink + (radius + 1e-3f);
-    real apart = real3_dot(towards, across);
-    /* Rounding alone decides `across` where the axis is along the light. */
-    real noise = 1e-12f * real3_dot(towards, towards);
-    return apart * apart <= wide * wide * square + noise;
 }
 
 REAL_FN truth capsule_may_hide(S(kiln_draw_shape) s, S(capsule_seen) seen, real3 towards,

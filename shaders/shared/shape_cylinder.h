@@ -106,14 +106,6 @@ REAL_FN truth cylinder_is_smooth(S(kiln_draw_shape) s, real3 towards, S(light_wa
     return light_blurs(way, cylinder_distance(s, towards));
 }
 
-REAL_FN real cylinder_sky(S(kiln_draw_shape) s, real3 towards, real3 normal)
-{
-    real climb = shape_along(s, normal);
-    real reach = s.extent.y * real_abs(climb) + disc_reach(s.extent.w, climb);
-    return sky_beside(towards, normal, cylinder_distance(s, towards),
-                      exact_min(s.extent.y, s.extent.w), reach);
-}
-
 /* ---- places ---------------------------------------------------------------------------------- */
 
 FN float cylinder_size(S(kiln_draw_shape) s)
@@ -133,6 +125,12 @@ REAL_FN real cylinder_reach(S(kiln_draw_shape) s, real3 way)
 {
     real climb = shape_along(s, way);
     return s.extent.y * real_abs(climb) + disc_reach(s.extent.w, climb);
+}
+
+REAL_FN real cylinder_sky(S(kiln_draw_shape) s, real3 towards, real3 normal)
+{
+    return sky_beside(towards, normal, cylinder_distance(s, towards),
+                      exact_min(s.extent.y, s.extent.w), cylinder_reach(s, normal));
 }
 
 #endif

@@ -36,7 +36,7 @@ struct fixture {
     struct placed placed;
     struct kiln_lamp_solids *solids;
     struct kiln_lamp_solid_maps maps;
-    struct kiln_draw_light lights[KILN_LAMP_MAPS];
+    struct kiln_draw_light lights[KILN_MOST_LAMPS];
     uint32_t light_count;
 };
 
@@ -73,7 +73,7 @@ static void add_ball(struct fixture *f, float x, float y, float z)
 static uint64_t drawn(const struct fixture *f)
 {
     uint64_t sum = 0;
-    for (int i = 0; i < KILN_LAMP_MAPS * KILN_LAMP_FACES; i++)
+    for (int i = 0; i < KILN_MOST_LAMPS * KILN_LAMP_FACES; i++)
         sum += f->maps.changes[i];
     return sum;
 }

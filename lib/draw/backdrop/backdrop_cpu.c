@@ -24,6 +24,7 @@ struct kiln_backdrop_cpu {
     struct kiln_surface_cache *cache; /* NULL: the camera moves */
     struct kiln_object_bounds object_bounds;
     struct kiln_casters casters;
+    struct kiln_shape_set all_shapes;
     struct kiln_ray_frame frame;
 };
 
@@ -109,10 +110,12 @@ static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
 {
     const struct kiln_shape_features features = kiln_shape_features(cpu->scene);
     kiln_casters_find(inputs, &cpu->object_bounds, &cpu->casters);
+    cpu->all_shapes = kiln_shape_set_all(inputs->shapes.counts.x);
     struct kiln_ray_frame frame = {
         .view = &inputs->view,
         .backdrop = &inputs->block,
         .shapes = &inputs->shapes,
+        .all_shapes = &cpu->all_shapes,
         .from_sun = inputs->from_sun,
         .floor_image = cpu->floor_image,
         .sky_image = cpu->sky_image,

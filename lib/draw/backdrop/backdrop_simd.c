@@ -55,8 +55,8 @@ SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, co
     }
     const struct ray reflected = {at, floor_reflection_along(frame, ray).at.direction};
     const struct ray_place nowhere = {.layer = -1};
-    const struct kiln_shape_set shapes = all_shapes(frame);
-    const struct ray_hit seen = trace(frame, &shapes, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
+    const struct ray_hit seen =
+        trace(frame, frame->all_shapes, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
     place_nodes(first, &seen, ray_at(&reflected, seen.t), floor, mirrored);
 }
 

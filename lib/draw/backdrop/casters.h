@@ -10,9 +10,6 @@
 #include "draw/backdrop/backdrop_inputs.h"
 #include "draw/moment/shape_set.h"
 
-/* The most lamps of a picture: those of the scene, and of fire. */
-enum { KILN_MOST_LAMPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS };
-
 /* A bit for each lamp. */
 struct kiln_lamp_set {
     uint32_t words[KILN_BIT_WORDS(KILN_MOST_LAMPS)];
@@ -44,11 +41,12 @@ struct kiln_casters {
 };
 
 enum {
-    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS,                 /* the first mesh among the bounds */
-    KILN_BOUNDS_ROOM = KILN_MAX_OBJECTS + KILN_MAX_MESHES, /* whole vectors */
+    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS, /* the first mesh among the bounds */
+    KILN_BOUNDS_ROOM = KILN_MAX_OBJECTS + KILN_MAX_MESHES,
 };
 
-static_assert(KILN_MAX_OBJECTS + KILN_MAX_MESHES <= KILN_BOUNDS_ROOM, "all casters have room");
+static_assert(KILN_MAX_OBJECTS % 16 == 0 && KILN_MAX_MESHES % 16 == 0, "whole vectors of 16");
+static_assert(KILN_MAX_MESHES <= 64, "a mesh has a bit of 64");
 
 /* A box around points that get light, m; from > to: there are none. */
 struct kiln_lit_box {

@@ -18,6 +18,7 @@ struct kiln_ray_frame {
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_draw_shapes *shapes;
+    const struct kiln_shape_set *all_shapes;
     const struct kiln_shape_seen *from_sun;             /* of each shape */
     const struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
     const float *smoke_to_sun, *smoke_to_sky;           /* NULL: none */
@@ -30,11 +31,5 @@ struct kiln_ray_frame {
     const float *lamp_smoke;                /* of struct kiln_lighting */
     bool floor_gloss;
 };
-
-/* Returns all shapes of a frame. */
-static inline struct kiln_shape_set all_shapes(const struct kiln_ray_frame *frame)
-{
-    return kiln_shape_set_all(frame->shapes->counts.x);
-}
 
 #endif

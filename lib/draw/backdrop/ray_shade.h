@@ -77,7 +77,6 @@ SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct r
         return;
     struct kiln_ray_frame all = *frame;
     all.casters = frame->all_casters;
-    const struct kiln_shape_set shapes = all_shapes(frame);
     const struct ray_reflection *m = &shaded->mirror;
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
@@ -90,7 +89,7 @@ SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct r
         help.pixels = &pixels;
     }
     struct shaded_rays reflection = {
-        .first = find_hit(&all, &shapes, &reflected, &nowhere, help.cached)};
+        .first = find_hit(&all, frame->all_shapes, &reflected, &nowhere, help.cached)};
     KILN_SIMD_NAME(kiln_rays_light)(&all, &reflected, false, &help, &reflection);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);

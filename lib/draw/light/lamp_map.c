@@ -42,9 +42,9 @@ struct kiln_lamp_maps {
     struct canvas *canvases; /* one for each thread */
     uint32_t *texels;
     uint32_t room; /* lamps that `texels` has room for */
-    struct kiln_shadow_span spans[KILN_LAMP_MAPS * KILN_LAMP_FACES][2 * EDGE]; /* of each face */
+    struct kiln_shadow_span spans[KILN_MOST_LAMPS * KILN_LAMP_FACES][2 * EDGE]; /* of each face */
     uint64_t changes;
-    struct shown shown[KILN_LAMP_MAPS];
+    struct shown shown[KILN_MOST_LAMPS];
     struct kiln_draw_mesh placed[KILN_MAX_MESHES]; /* the meshes that the maps show */
 };
 
@@ -120,7 +120,7 @@ void kiln_lamp_maps_destroy(struct kiln_lamp_maps **maps)
 /* Describes the maps that are drawn anew. */
 struct face_job {
     struct kiln_lamp_maps *maps;
-    uint32_t numbers[KILN_LAMP_MAPS];
+    uint32_t numbers[KILN_MOST_LAMPS];
 };
 
 /* Returns a place, seen from the lamp, in a face's view space: right, up, and against its axis
@@ -252,7 +252,7 @@ static void place_meshes(struct kiln_lamp_maps *maps, const struct kiln_draw_sha
         memcmp(maps->placed, shapes->meshes, maps->meshes->count * sizeof *maps->placed) == 0)
         return;
     memcpy(maps->placed, shapes->meshes, maps->meshes->count * sizeof *maps->placed);
-    for (uint32_t i = 0; i < KILN_LAMP_MAPS; i++)
+    for (uint32_t i = 0; i < KILN_MOST_LAMPS; i++)
         maps->shown[i].drawn = false;
     float3 *positions = maps->positions;
     for (uint32_t i = 0; i < maps->meshes->count; i++) {
@@ -300,7 +300,7 @@ const uint32_t *kiln_lamp_maps_run(struct kiln_lamp_maps *maps, const struct kil
     uint32_t anew = 0;
     *count = 0;
     place_meshes(maps, &moment->shapes);
-    for (uint32_t i = 0; i < light_count && *count < KILN_LAMP_MAPS; i++) {
+    for (uint32_t i = 0; i < light_count && *count < KILN_MOST_LAMPS; i++) {
         if (!lights[i].casters.x)
             continue;
         struct shown *shown = &maps->shown[*count];

@@ -13,7 +13,6 @@ enum {
     KILN_LAMP_FACES = 6,
     KILN_LAMP_ENTRIES = KILN_SHADOW_MAP_ENTRIES(KILN_LAMP_EDGE, KILN_LAMP_LEVELS), /* of a face */
     KILN_LAMP_WORDS = KILN_LAMP_ENTRIES * KILN_SHADOW_PAIR,                        /* of a face */
-    KILN_LAMP_MAPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS, /* the most lamps with maps */
 };
 
 struct kiln_lamp_maps;

@@ -13,6 +13,7 @@ enum { GRAIN = 8 * KILN_LANES /* slots that a worker takes at a time */, LIGHTS_
 
 struct kiln_lamp_shade {
     const struct kiln_scene *scene;
+    struct kiln_shape_set casters[KILN_MOST_LAMPS]; /* by lamp */
     uint32_t *words;
     size_t room; /* of words */
 };
@@ -52,6 +53,7 @@ struct shade_job {
     kiln_lamp_shade_block *shade;
     const struct kiln_lamp_objects *objects;
     const struct kiln_draw_light *lights;
+    const struct kiln_shape_set *casters; /* of each light */
     uint32_t light_count;
     struct kiln_appearance_system system;
     uint32_t *words; /* of the system's first slot, in the first plane */
@@ -67,8 +69,8 @@ static void shade_block(const struct shade_job *job, uint32_t first)
     uint32_t *to = job->words + first;
     for (uint32_t light = 0; light < job->light_count; light += LIGHTS_OF_WORD) {
         const uint32_t rest = job->light_count - light;
-        job->shade(job->objects, job->lights + light, rest < LIGHTS_OF_WORD ? rest : LIGHTS_OF_WORD,
-                   &block, words);
+        job->shade(job->objects, job->lights + light, job->casters + light,
+                   rest < LIGHTS_OF_WORD ? rest : LIGHTS_OF_WORD, &block, words);
         memcpy(to, words, (left < KILN_LANES ? left : KILN_LANES) * sizeof *words);
         to += job->plane;
     }
@@ -108,6 +110,8 @@ const uint32_t *kiln_lamp_shade_run(struct kiln_lamp_shade *shade, const struct 
         .maps = maps,
         .solid_maps = solid_maps,
     };
+    for (uint32_t i = 0; i < light_count; i++)
+        shade->casters[i] = kiln_shape_set_of_lamp(&lights[i], moment->shapes.counts.x);
     for (uint32_t i = 0; i < shade->scene->system_count; i++) {
         if (!kiln_sun_shade_concerns(shade->scene, i))
             continue;
@@ -115,6 +119,7 @@ const uint32_t *kiln_lamp_shade_run(struct kiln_lamp_shade *shade, const struct 
                                 .shade = KILN_SIMD_PICK(kiln_lamp_shade_block, moment->simd),
                                 .objects = &objects,
                                 .lights = lights,
+                                .casters = shade->casters,
                                 .light_count = light_count,
                                 .system = kiln_appearance_system(moment, i),
                                 .words = shade->words + moment->pool->systems[i].base,

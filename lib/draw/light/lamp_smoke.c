@@ -8,17 +8,13 @@
 #include "base/error.h"
 #include "shared/exact.h"
 
-enum {
-    MOST_MAPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
-    ROWS = KILN_LAMP_SMOKE_HEIGHT,
-    GRAIN = 4
-};
+enum { ROWS = KILN_LAMP_SMOKE_HEIGHT, GRAIN = 4 };
 
 struct kiln_lamp_smoke {
     kiln_lamp_smoke_fill *fill;
     float *maps;
     uint32_t room; /* maps that there is memory for */
-    struct kiln_lamp_smoke_job jobs[MOST_MAPS];
+    struct kiln_lamp_smoke_job jobs[KILN_MOST_LAMPS];
 };
 
 struct kiln_lamp_smoke *kiln_lamp_smoke_create(enum kiln_simd simd)

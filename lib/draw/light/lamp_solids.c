@@ -17,7 +17,7 @@
 #include "draw/moment/shapes.h"
 #include "shared/exact.h"
 
-enum { FIRST_ROOM = 1024, FACES = KILN_LAMP_MAPS * KILN_LAMP_FACES };
+enum { FIRST_ROOM = 1024, FACES = KILN_MOST_LAMPS * KILN_LAMP_FACES };
 
 /* Holds the pose of a mesh, which it has besides the sphere that stands for it. */
 struct posed {
@@ -64,9 +64,9 @@ struct kiln_lamp_solids {
     size_t turn_room;         /* of each of them */
     uint32_t *texels;
     uint32_t room; /* lamps that `texels` has room for */
-    struct lamp_key shown[KILN_LAMP_MAPS];
+    struct lamp_key shown[KILN_MOST_LAMPS];
     uint32_t shown_count; /* maps that show the solids of `before` */
-    float far[KILN_LAMP_MAPS];
+    float far[KILN_MOST_LAMPS];
     bool filled[FACES]; /* the face shows a solid */
     uint64_t changes[FACES];
 };
@@ -275,7 +275,7 @@ static bool shines(const struct kiln_draw_light *light)
 struct reach_job {
     const struct collected *solids;
     const struct kiln_draw_light *lights;
-    float far[KILN_LAMP_MAPS]; /* results, m; 0: the light shines on no solid */
+    float far[KILN_MOST_LAMPS]; /* results, m; 0: the light shines on no solid */
 };
 
 /* Finds the distance that the maps of lights reach: past all solids that may hide them. */
@@ -303,7 +303,7 @@ static void find_reach(void *context, size_t begin, size_t end, uint32_t worker)
 /* Describes the maps that are drawn anew. */
 struct face_job {
     struct kiln_lamp_solids *solids;
-    uint32_t numbers[KILN_LAMP_MAPS];
+    uint32_t numbers[KILN_MOST_LAMPS];
 };
 
 static int compare_turns(const void *a, const void *b)
@@ -427,7 +427,7 @@ bool kiln_lamp_solids_run(struct kiln_lamp_solids *solids, const struct kiln_mom
     kiln_threads_for(solids->threads, light_count, 1, find_reach, &reach);
     const uint32_t kept = have_moved(&solids->now, &solids->before) ? 0 : solids->shown_count;
     solids->shown_count = 0;
-    for (uint32_t i = 0; i < light_count && count < KILN_LAMP_MAPS; i++) {
+    for (uint32_t i = 0; i < light_count && count < KILN_MOST_LAMPS; i++) {
         if (!(reach.far[i] > 0.0f))
             continue;
         const struct lamp_key key = key_of(&lights[i]);

@@ -38,12 +38,15 @@ static bool is_behind(const struct kiln_draw_light *light, const struct kiln_dra
     return float3_dot(from, xyz(light->facing)) + reach < RECTANGLE_SLACK;
 }
 
-/* Returns the trimmed set of the shapes that may hide a light. */
+/* Returns the trimmed set of the shapes that may hide a light. hide: those that hide any. */
 static struct kiln_shape_set find_casters(const struct kiln_draw_shapes *shapes,
+                                          const struct kiln_shape_set *hide,
                                           const struct kiln_draw_light *light)
 {
-    struct kiln_shape_set casters = kiln_shapes_that_hide(shapes);
-    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+    struct kiln_shape_set casters = *hide;
+    struct kiln_shape_walk walk = kiln_shape_walk_begin(hide);
+    while (kiln_shape_walk_next(&walk)) {
+        const uint32_t i = walk.shape;
         const struct kiln_draw_shape *shape = &shapes->shapes[i];
         const float3 from = float3_sub(xyz(light->position_radius2), xyz(shape->center));
         if (contains(shape, from) || is_behind(light, shape))
@@ -162,12 +165,13 @@ uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_ligh
 void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_light *lights,
                              uint32_t count)
 {
+    const struct kiln_shape_set hide = kiln_shapes_that_hide(&moment->shapes);
     for (uint32_t i = 0; i < count; i++) {
         struct kiln_draw_light *light = &lights[i];
         if (!light->casters.x)
             continue;
         const float part = part_above_planes(moment, light);
-        const struct kiln_shape_set casters = find_casters(&moment->shapes, light);
+        const struct kiln_shape_set casters = find_casters(&moment->shapes, &hide, light);
         memcpy(light->hiders, casters.words, casters.count * sizeof *casters.words);
         light->casters.x = kiln_shape_set_any(&casters);
         light->color.x *= part;

@@ -19,7 +19,7 @@
 struct kiln_lighting {
     uint64_t run;         /* number of the run, from 1 */
     uint32_t light_count; /* lamps, then the light of fire */
-    struct kiln_draw_light lights[KILN_LAMP_MAPS];
+    struct kiln_draw_light lights[KILN_MOST_LAMPS];
     const uint32_t *lamp_maps; /* shadow maps of the first lamp_map_count of kiln_lamp_maps_run; */
     uint32_t lamp_map_count;   /* NULL: there are none */
     uint64_t lamp_map_changes; /* a number that grows when a map changes */

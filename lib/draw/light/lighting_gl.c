@@ -49,7 +49,7 @@ struct kiln_lighting_gl {
     uint32_t lamp_map_count;        /* lamps that the texture has room for */
     uint64_t lamp_map_changes;      /* of the maps that the texture holds */
     uint32_t lamp_solid_count;      /* lamps that their texture has room for */
-    uint64_t lamp_solid_changes[KILN_LAMP_MAPS * KILN_LAMP_FACES]; /* of faces in the texture */
+    uint64_t lamp_solid_changes[KILN_MOST_LAMPS * KILN_LAMP_FACES]; /* of faces in the texture */
     uint32_t lamp_smoke_count; /* lamps that their texture has room for */
     size_t lamp_shade_words;   /* of the texture */
     /* room for a level of a face while it is sent */

@@ -14,9 +14,11 @@ kiln_sun_shade_block(const struct kiln_draw_shapes *shapes, const struct kiln_sh
                      const struct kiln_appearance_block *block, float visible[KILN_LANES]);
 KILN_SIMD_DECLARE(kiln_sun_shade_block, kiln_sun_shade_block);
 
-/* Writes the word of each lane for four lights. count: how many of them there are. */
+/* Writes the word of each lane for four lights. casters: of each light, the shapes that may hide
+ * it; count: how many lights there are. */
 typedef void kiln_lamp_shade_block(const struct kiln_lamp_objects *objects,
-                                   const struct kiln_draw_light *lights, uint32_t count,
+                                   const struct kiln_draw_light *lights,
+                                   const struct kiln_shape_set *casters, uint32_t count,
                                    const struct kiln_appearance_block *block,
                                    uint32_t words[KILN_LANES]);
 KILN_SIMD_DECLARE(kiln_lamp_shade_block, kiln_lamp_shade_block);

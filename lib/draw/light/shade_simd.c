@@ -50,7 +50,8 @@ void KILN_SIMD_NAME(kiln_sun_shade_block)(const struct kiln_draw_shapes *shapes,
 }
 
 void KILN_SIMD_NAME(kiln_lamp_shade_block)(const struct kiln_lamp_objects *objects,
-                                           const struct kiln_draw_light *lights, uint32_t count,
+                                           const struct kiln_draw_light *lights,
+                                           const struct kiln_shape_set *casters, uint32_t count,
                                            const struct kiln_appearance_block *block,
                                            uint32_t words[KILN_LANES])
 {
@@ -63,9 +64,7 @@ void KILN_SIMD_NAME(kiln_lamp_shade_block)(const struct kiln_lamp_objects *objec
             if (lamp->casters.x | lamp->casters.y && any(balls.alive)) {
                 const struct vf3 towards =
                     vf3_normalize(vf3_towards(lamp->position_radius2, balls.at));
-                const struct kiln_shape_set casters =
-                    kiln_shape_set_of_lamp(lamp, objects->shapes->counts.x);
-                seen = lamp_visibility(objects, lamp, &casters, balls.at, towards, NULL,
+                seen = lamp_visibility(objects, lamp, &casters[i], balls.at, towards, NULL,
                                        balls.radius, balls.alive);
             }
             word |= vi_of(seen * (float)KILN_LAMP_SHADE_ONE + 0.5f) << (int32_t)(8 * i);

@@ -10,8 +10,7 @@ static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_light) == 176, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112, "std140");
-static_assert(sizeof(struct kiln_draw_backdrop) ==
-                  208 + 176 * (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS),
+static_assert(sizeof(struct kiln_draw_backdrop) == 208 + 176 * KILN_MOST_LAMPS,
               "std140, and no padding, which the backdrop would compare");
 static_assert(sizeof(struct kiln_draw_backdrop) <= 16384, "what every GL allows a uniform block");
 

@@ -10,7 +10,7 @@ struct kiln_shape_seen {
     float numbers[24];
 };
 
-/* towards: unit, to the light. */
+/* Computes all shapes as seen along a direction. towards: unit, to the light. */
 void kiln_shapes_see(const struct kiln_draw_shapes *shapes, float3 towards,
                      struct kiln_shape_seen seen[KILN_MAX_OBJECTS]);
 
