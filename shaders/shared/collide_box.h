@@ -40,6 +40,14 @@ FN float collide_moving(float a, float b, float since)
     return moved;
 }
 
+/* Interpolates the first three numbers likewise. */
+FN float3 collide_moving3(float4 a, float4 b, float since)
+{
+    EXACT float3 moved = FLOAT3(collide_moving(a.x, b.x, since), collide_moving(a.y, b.y, since),
+                                collide_moving(a.z, b.z, since));
+    return moved;
+}
+
 struct collide_box {
     float3 min, max;
 };
@@ -48,12 +56,8 @@ struct collide_box {
 FN S(collide_box) collide_box_at(S(kiln_collider) c, float since)
 {
     EXACT S(collide_box) box;
-    box.min = FLOAT3(collide_moving(c.min.x, c.min_end.x, since),
-                     collide_moving(c.min.y, c.min_end.y, since),
-                     collide_moving(c.min.z, c.min_end.z, since));
-    box.max = FLOAT3(collide_moving(c.max.x, c.max_end.x, since),
-                     collide_moving(c.max.y, c.max_end.y, since),
-                     collide_moving(c.max.z, c.max_end.z, since));
+    box.min = collide_moving3(c.min, c.min_end, since);
+    box.max = collide_moving3(c.max, c.max_end, since);
     return box;
 }
 

@@ -36,13 +36,9 @@ FN float4 collide_pose_at(S(kiln_collider) c, float since)
 FN S(collide_frame) collide_frame_at(S(kiln_collider) c, float since)
 {
     EXACT S(collide_frame) frame;
-    frame.center = FLOAT3(collide_moving(c.center.x, c.center_end.x, since),
-                          collide_moving(c.center.y, c.center_end.y, since),
-                          collide_moving(c.center.z, c.center_end.z, since));
+    frame.center = collide_moving3(c.center, c.center_end, since);
     frame.radius = collide_moving(c.center.w, c.center_end.w, since);
-    frame.extent = FLOAT3(collide_moving(c.extent.x, c.extent_end.x, since),
-                          collide_moving(c.extent.y, c.extent_end.y, since),
-                          collide_moving(c.extent.z, c.extent_end.z, since));
+    frame.extent = collide_moving3(c.extent, c.extent_end, since);
     frame.swell = c.extent.w;
     frame.pose = collide_pose_at(c, since);
     return frame;

@@ -25,9 +25,7 @@ struct collide_round {
 FN S(collide_round) collide_round_at(S(kiln_collider) c, float since)
 {
     EXACT S(collide_round) shape;
-    shape.center = FLOAT3(collide_moving(c.center.x, c.center_end.x, since),
-                          collide_moving(c.center.y, c.center_end.y, since),
-                          collide_moving(c.center.z, c.center_end.z, since));
+    shape.center = collide_moving3(c.center, c.center_end, since);
     shape.axis = FLOAT3(c.axis.x, c.axis.y, c.axis.z);
     shape.radius = collide_moving(c.center.w, c.center_end.w, since);
     shape.half_height = collide_moving(c.axis.w, c.half_height_end, since);
