@@ -9,9 +9,10 @@
 #include "shared/platform.h"
 
 /* The uniform block of shapes, and the storage block that has all shapes of a scene with more than
- * KILN_BLOCK_SHAPES (SHAPES_STORED). */
+ * KILN_BLOCK_SHAPES (SHAPES_STORED). Solid particles are sorted after the backdrop is drawn, and
+ * their shaders still read the storage block, so its binding point is none of the sort's. */
 #define KILN_BIND_SHAPES        4
-#define KILN_BIND_STORED_SHAPES 6
+#define KILN_BIND_STORED_SHAPES 7
 #define KILN_BLOCK_SHAPES       32
 
 /* Texture units of the backdrop. Those that other stages use, too, are in draw_layout.h, 12 is in

@@ -7,6 +7,7 @@
  * pass makes no use of what it reads, and nobody reads what the second pass draws. */
 #include "draw/backdrop/backdrop_gl.h"
 
+#include <assert.h>
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -16,6 +17,9 @@
 #include "draw/moment/draw_blocks.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
+#include "shared/sort_layout.h"
+
+static_assert(KILN_BIND_STORED_SHAPES > SORT_BIND_TOTAL, "bound from the backdrop to the solids");
 
 enum { PASS_CENTERS, PASS_EDGES, PASSES };
 

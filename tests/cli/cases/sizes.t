@@ -103,6 +103,8 @@ $ objects() {
 1|  state        9a7d9685bb4e0f71
 2|257.yaml:10:5: backdrop.objects: found 257 entries; at most 256 are allowed
 = 3
+$ sed 's/  rain: {/&look: {shape: sphere, size: 0.5 m, lit: 1}, /' 256.yaml >balls.yaml; bin/states balls.yaml
+1|  state        9a7d9685bb4e0f71
 $ kiln render 256.yaml -q -o none --frames 0 --device software --technique sort=oddeven:4
 2|kiln: backdrop.objects: found 256 objects; the technique sort=oddeven takes at most 32: use sort=radix
 = 2
