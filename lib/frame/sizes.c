@@ -25,7 +25,7 @@ static uint32_t count_life_keys(const struct kiln_scene *scene)
     for (uint32_t i = 0; i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
         const struct kiln_range *life = &scene->systems[i].emit.life;
         count += life->min.count;
-        count += life->max.first == life->min.first ? 0 : life->max.count;
+        count += kiln_range_is_one_value(life) ? 0 : life->max.count;
     }
     return count;
 }

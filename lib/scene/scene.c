@@ -47,6 +47,13 @@ bool kiln_value3_is_constant(const struct kiln_value3 *value)
     return value->x.count == 0 && value->y.count == 0 && value->z.count == 0;
 }
 
+bool kiln_range_is_one_value(const struct kiln_range *range)
+{
+    const struct kiln_value *min = &range->min, *max = &range->max;
+    return min->constant == max->constant && min->first == max->first && min->count == max->count &&
+           min->clock == max->clock;
+}
+
 bool kiln_object_is_oriented_box(const struct kiln_object *object)
 {
     const struct kiln_value3 *r = &object->rotation;

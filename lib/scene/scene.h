@@ -506,6 +506,9 @@ float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value
 
 bool kiln_value3_is_constant(const struct kiln_value3 *value);
 
+/* Returns whether both ends of a range are one value, with the same keys if it has any. */
+bool kiln_range_is_one_value(const struct kiln_range *range);
+
 /* Returns whether an object is a box that has a rotation at any time. */
 bool kiln_object_is_oriented_box(const struct kiln_object *object);
 

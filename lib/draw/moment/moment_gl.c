@@ -42,33 +42,40 @@ void kiln_moment_gl_destroy(struct kiln_moment_gl **gl)
     *gl = NULL;
 }
 
-/* Appends the keys of a value to a table of `count` keys, and points the value at them. */
-static void pack_value(const struct kiln_scene *scene, struct kiln_value *value, float4 *keys,
+/* Appends the keys of a value to a table of `count` keys, and points the value at them. Returns
+ * false if the table has no room for them. */
+static bool pack_value(const struct kiln_scene *scene, struct kiln_value *value, float4 *keys,
                        uint32_t *count)
 {
-    assert(*count + value->count <= KILN_BLOCK_KEYS); /* by kiln_sizes_check */
+    if (value->count > KILN_BLOCK_KEYS - *count)
+        return false;
     if (value->count > 0)
         memcpy(keys + *count, scene->keys + value->first, value->count * sizeof *keys);
     value->first = *count;
     *count += value->count;
+    return true;
 }
 
 /* Fills the table of keys for drawing. Where the scene's keys do not fit into a uniform block, the
- * table has only those that shaders of drawing evaluate: the keys of the lives. */
-static void fill_keys(const struct kiln_scene *scene, struct kiln_draw_look *looks, float4 *keys)
+ * table has only those that shaders of drawing evaluate: the keys of the lives. kiln_sizes_check
+ * has refused scenes for which this fails. */
+static bool fill_keys(const struct kiln_scene *scene, struct kiln_draw_look *looks, float4 *keys,
+                      struct kiln_error *error)
 {
     uint32_t count = 0;
+    bool fits = true;
     if (scene->key_count > 0 && !kiln_scene_stores_keys(scene))
         memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
-    for (uint32_t i = 0; i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
+    for (uint32_t i = 0; fits && i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
         struct kiln_range *life = &looks[i].derived.life;
-        const bool same = life->max.first == life->min.first;
-        pack_value(scene, &life->min, keys, &count);
-        if (same)
+        const bool is_one = kiln_range_is_one_value(life);
+        fits = pack_value(scene, &life->min, keys, &count) &&
+               (is_one || pack_value(scene, &life->max, keys, &count));
+        if (is_one)
             life->max = life->min;
-        else
-            pack_value(scene, &life->max, keys, &count);
     }
+    return fits || kiln_error_set(error, KILN_USAGE, "systems: the keys of lives are more than %d",
+                                  KILN_BLOCK_KEYS);
 }
 
 static bool make_buffers(const struct kiln_moment *moment, struct kiln_error *error)
@@ -77,7 +84,8 @@ static bool make_buffers(const struct kiln_moment *moment, struct kiln_error *er
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
     float4 keys[KILN_BLOCK_KEYS] = {{0}};
     memcpy(looks, moment->looks, sizeof looks);
-    fill_keys(moment->scene, looks, keys);
+    if (!fill_keys(moment->scene, looks, keys, error))
+        return false;
     kiln_buffer_init(&gl->looks, gl->device, sizeof looks, "looks");
     kiln_buffer_init(&gl->keys, gl->device, sizeof keys, "value keys");
     return kiln_buffer_upload(&gl->looks, looks, error) &&

@@ -68,13 +68,14 @@ $ cat >bin/keys <<'END'
 >     echo "  s$s: {emit: {rate: 600, speed: $over_time}, forces: [wind: {velocity: [$s, 0, 0], pull: $over_life}]}"
 > done >>keys.yaml
 > echo "  last: {emit: {rate: 600, life: $over_time}, forces: [drag: $over_life]}" >>keys.yaml
+> echo '  pair: {emit: {rate: 6000, life: [0.02 s, 4 s], from: {box: {size: [4, 3, 1]}}}, look: {size: 20 cm}}' >>keys.yaml
 $ bin/states keys.yaml
-1|  state        7eceb231a521a9a3
+1|  state        9a165a2abeb2f028
 $ { grep -v ' s31' keys.yaml; echo '  ball: {emit: {rate: 600, speed: {keys: {0: 1, 1: 2}}}, look: {shape: sphere}, interact: [collide: {radius: {life: [1 cm, 2 cm]}}]}'; } >balls.yaml
 $ bin/states balls.yaml
-1|  state        f921504037f8c953
+1|  state        80b421ae9f67b7b8
 $ { cat keys.yaml; echo '  more: {emit: {rate: {keys: {0: 1}}}}'; } >more.yaml; kiln check more.yaml
-2|more.yaml:36:30: systems.more.emit.rate.keys: 1 keys are too many; a scene has at most 65536, and 65536 of them are used already
+2|more.yaml:37:30: systems.more.emit.rate.keys: 1 keys are too many; a scene has at most 65536, and 65536 of them are used already
 = 3
 $ grep -v ' s[23456789]' keys.yaml >few.yaml; kiln render few.yaml -q -o none --frames 0 --device software --technique simulate=pingpong
 2|kiln: scene: found 24576 keys; the technique simulate=pingpong takes at most 1024: use simulate=inplace
