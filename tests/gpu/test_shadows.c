@@ -397,7 +397,7 @@ static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *e
     return ok && kiln_image_host(&d->backdrop_color, KILN_READ, error);
 }
 
-/* A bin's list of 20001 spheres must be read to its end. A list of 40001 needs more loop iterations
+/* A bin's list of 52001 spheres must be read to its end. A list of 60001 needs more loop iterations
  * than llvmpipe runs (KILN_SOFTWARE_ITERATIONS); there backdrop=gl must report an error. */
 static void a_list_of_spheres_may_be_long(void **state)
 {
@@ -407,21 +407,21 @@ static void a_list_of_spheres_may_be_long(void **state)
     const size_t bytes = (size_t)WIDTH * HEIGHT * 4 * sizeof(float);
     float *alone = malloc(bytes);
     assert_non_null(alone);
-    drawing_most = 40001;
+    drawing_most = 60001;
     init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, NULL);
     assert_true(draw_buried(&f, 0, &error));
     memcpy(alone, f.drawing.backdrop_color.host, bytes);
-    assert_true(draw_buried(&f, 20000, &error));
+    assert_true(draw_buried(&f, 52000, &error));
     double most = 0;
     for (size_t i = 0; i < bytes / sizeof(float); i++)
         most = fmax(most, fabs((double)alone[i] - (double)f.drawing.backdrop_color.host[i]));
     assert_true(most < 1e-3);
-    bool drew = draw_buried(&f, 40000, &error);
+    bool drew = draw_buried(&f, 60000, &error);
     assert_int_equal(drew, !device->info.software || backdrop_technique == KILN_BACKDROP_CPU);
     if (!drew)
         expect_error(&error, KILN_DEVICE_FAILED,
-                     "backdrop=gl: 40001 particles may shade one place; software GL draws at most "
-                     "26212: use --technique backdrop=cpu, or fewer particles");
+                     "backdrop=gl: 60001 particles may shade one place; software GL draws at most "
+                     "52288: use --technique backdrop=cpu, or fewer particles");
     finish(&f);
     drawing_most = 32;
     free(alone);

@@ -205,21 +205,52 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     return inputs;
 }
 
-/* Refuses shadow lists that llvmpipe would silently not read to their end. A shader invocation
- * reads a list for each of its rays, and for the floor's reflection. Half of the iterations that
- * its loops may run is left to all other loops. */
-static bool shadow_lists_fit_loops(const struct kiln_backdrop_stage *stage,
-                                   const struct kiln_solid_bins *solids, struct kiln_error *error)
+/* Returns the most iterations that an invocation of backdrop.frag runs to light one surface, but
+ * for its list of solid particles. Each loop counts one more than its body runs (gpu/device.h).
+ * Shapes have loops for each kind: to find the surface, the sky that it sees, the sun and each
+ * lamp. */
+static uint32_t lighting_iterations(const struct kiln_shape_features *features,
+                                    const struct kiln_backdrop_inputs *inputs)
 {
-    const uint32_t readings =
-        (1 + KILN_EDGE_SAMPLES) * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
-    const uint32_t most = KILN_SOFTWARE_ITERATIONS / 2 / readings * (uint32_t)KILN_SOLIDS_AT_A_TIME;
-    if (!stage->device->info.software || solids->longest <= most)
+    const uint32_t shapes = inputs->shapes.counts.x, meshes = inputs->shapes.counts.z;
+    const uint32_t lights = inputs->block.counts.y, taps = 5 + 1; /* of a map of shadows */
+    const uint32_t hidden = features->lamp_shadows ? lights : 0;
+    const uint32_t each_lamp = (features->meshes ? taps : 0) + (features->solids ? taps : 0);
+    const uint32_t passes_over_shapes = 2u + (features->sun ? 1 : 0) + hidden;
+    const uint32_t for_meshes = meshes + 1 + (features->sun ? meshes * (1 + taps) + 1 : 0);
+    return 1 + passes_over_shapes * (shapes + (uint32_t)__builtin_popcount(features->kinds)) +
+           (lights + 1) + hidden * each_lamp + (features->meshes ? for_meshes : 0);
+}
+
+/* Refuses pictures that llvmpipe would silently draw wrong, as it ends the loops of an invocation
+ * after KILN_SOFTWARE_ITERATIONS. At an edge, an invocation lights a surface for each of its rays,
+ * and one more for each that the floor reflects. */
+static bool lighting_fits_loops(const struct kiln_backdrop_stage *stage,
+                                const struct kiln_backdrop_inputs *inputs,
+                                const struct kiln_solid_bins *solids, struct kiln_error *error)
+{
+    enum { OTHERS = 160 }; /* the loops over rays, neighbours and waves */
+    const struct kiln_shape_features features = kiln_shape_features(stage->scene);
+    const uint32_t surfaces = (1 + KILN_EDGE_SAMPLES) * (features.floor_gloss ? 2 : 1);
+    const uint32_t most = (KILN_SOFTWARE_ITERATIONS - OTHERS) / surfaces;
+    const uint32_t needed = lighting_iterations(&features, inputs);
+    if (!stage->device->info.software)
+        return true;
+    if (needed + 1 > most)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "backdrop=gl: %u objects and %u lights take %u iterations a pixel; "
+                              "software GL runs at most %d: use --technique backdrop=cpu, or fewer "
+                              "objects or lights",
+                              inputs->shapes.counts.x + inputs->shapes.counts.z,
+                              inputs->block.counts.y, needed * surfaces + OTHERS,
+                              KILN_SOFTWARE_ITERATIONS);
+    const uint32_t most_listed = (most - needed - 1) * (uint32_t)KILN_SOLIDS_AT_A_TIME;
+    if (solids->longest <= most_listed)
         return true;
     return kiln_error_set(error, KILN_DEVICE_FAILED,
                           "backdrop=gl: %u particles may shade one place; software GL draws at "
                           "most %u: use --technique backdrop=cpu, or fewer particles",
-                          solids->longest, most);
+                          solids->longest, most_listed);
 }
 
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
@@ -233,7 +264,7 @@ bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_mom
         stage->has_drawn =
             kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, is_current, error);
     else
-        stage->has_drawn = shadow_lists_fit_loops(stage, &lighting->solids, error) &&
+        stage->has_drawn = lighting_fits_loops(stage, &inputs, &lighting->solids, error) &&
                            kiln_lighting_bind(lighting, error) &&
                            kiln_backdrop_gl_draw(stage->gl, &stage->drawn, is_current, error);
     return stage->has_drawn;

@@ -139,6 +139,14 @@ $ kiln render 64.yaml -q -o none --frames 0 --device software --technique simula
 2|kiln: backdrop.lights: found 64 lights; the technique simulate=pingpong takes at most 16: use simulate=inplace
 = 2
 
+Software GL ends the loops of an invocation silently, so that many objects with many lights are an error:
+
+$ many() { sed '/systems:/,/rain:/d; /lights:/d; s/96, 54/64, 36/; s/^simulation.*/systems: {still: {emit: {rate: 0}}}/' 256.yaml; echo '  lights:'; bin/series "$1" '    - point: {position: [%d, 3, 2], color: [1, 2, 3]}\n'; }
+> many 47 >47.yaml; bin/states 47.yaml; many 48 >48.yaml; kiln render 48.yaml -q -o none --frames 0 --device software --technique backdrop=gl
+1|  state        0000000000000000
+2|kiln: backdrop=gl: 256 objects and 48 lights take 66455 iterations a pixel; software GL runs at most 65535: use --technique backdrop=cpu, or fewer objects or lights
+= 5
+
 Particles; OpenGL takes half as many. unit.sizes steps and draws them:
 
 $ printf 'kiln: 1\noutput: {size: [32, 18]}\nsystems:\n  dust: {emit: {bursts: {0 s: 33554432}}}\n' >dust.yaml
