@@ -17,7 +17,7 @@
 
 /* The version of the file's format. The simulation has a version of its own, which the motion hash
  * covers. */
-enum { FORMAT = 1, MAX_HEAD = 2048, HASH_DIGITS = 64, VERSION_SIZE = 16 };
+enum { FORMAT = 1, HASH_DIGITS = 64, VERSION_SIZE = 16 };
 
 enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
 
@@ -39,7 +39,7 @@ struct head {
 /* ---- the head: one description for writing and reading --------------------------------------- */
 
 struct cursor {
-    uint8_t bytes[MAX_HEAD];
+    uint8_t bytes[KILN_STATE_MAX_HEAD];
     size_t at, size; /* size: the number of bytes that were read */
     bool writes;
     bool failed;
@@ -129,7 +129,7 @@ static struct head head_of(const struct kiln_state *state)
 
 /* Writes a line of MAGIC and the format, the size of the head with its CRC, the head as pass_head
  * orders it, and the CRC. */
-static void write_head(struct kiln_temporary *file, struct head *head)
+static bool write_head(struct kiln_temporary *file, struct head *head, struct kiln_error *error)
 {
     struct cursor c = {.writes = true};
     char line[32];
@@ -146,7 +146,13 @@ static void write_head(struct kiln_temporary *file, struct head *head)
     c.at = end;
     crc = (uint32_t)crc32_z(0, c.bytes, end);
     pass_word(&c, &crc);
-    kiln_temporary_write(file, c.bytes, c.at);
+    if (c.failed)
+        return kiln_error_set(error, KILN_IO,
+                              "%s: the head of the state, of %u systems and %u painted meshes, "
+                              "takes more than %d bytes",
+                              file->target, head->system_count, head->canvas_count,
+                              KILN_STATE_MAX_HEAD);
+    return kiln_temporary_write(file, c.bytes, c.at) || kiln_temporary_fail(file, error);
 }
 
 static bool is_hash(const char *text)
@@ -177,7 +183,7 @@ static bool read_start(int file, const char *path, struct cursor *c, uint32_t *s
                               FORMAT);
     c->at = length;
     pass_word(c, size);
-    return (*size > c->size + sizeof *size && *size <= MAX_HEAD) ||
+    return (*size > c->size + sizeof *size && *size <= KILN_STATE_MAX_HEAD) ||
            refuse(path, "the file is damaged", error);
 }
 
@@ -310,8 +316,7 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
         return false;
     file.durable = true; /* a later run must find it, even after a crash */
     const struct visitor visitor = {.visit = write_table, .threads = threads, .out = &file};
-    write_head(&file, &head);
-    if (visit_tables(&visitor, &head, &places, error))
+    if (write_head(&file, &head, error) && visit_tables(&visitor, &head, &places, error))
         return kiln_temporary_commit(&file, overwrite, error);
     kiln_temporary_discard(&file);
     return false;

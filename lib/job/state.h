@@ -23,6 +23,10 @@ struct kiln_state_info {
     uint32_t shape_count;
 };
 
+/* The most bytes of a state's head: of the line "kiln state 1" with the head's size and CRC, of the
+ * identity with the counts, of each system and of each painted mesh. */
+enum { KILN_STATE_MAX_HEAD = 21 + 180 + 24 * KILN_MAX_SYSTEMS + 12 * KILN_MAX_MESHES };
+
 struct kiln_state {
     struct kiln_state_info info;
     struct kiln_pool *pool;

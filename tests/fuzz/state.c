@@ -11,10 +11,7 @@
 
 #include "fuzz.h"
 
-enum {
-    LINE = 13,       /* bytes of the first line, "kiln state 1\n", before the head's size */
-    MAX_HEAD = 1024, /* bytes, as in job/state.c */
-};
+enum { LINE = 13 }; /* bytes of the first line, "kiln state 1\n", before the head's size */
 
 static uint32_t get_word(const uint8_t *bytes)
 {
@@ -35,7 +32,7 @@ static void repair(uint8_t *data, size_t size)
     if (size < LINE + 4)
         return;
     const size_t head = get_word(data + LINE);
-    if (head < LINE + 8 || head > size || head > MAX_HEAD)
+    if (head < LINE + 8 || head > size || head > KILN_STATE_MAX_HEAD)
         return;
     put_word(data + head - 4, (uint32_t)crc32_z(0, data, head - 4));
     for (size_t at = head; at + 8 < size;) {

@@ -128,6 +128,38 @@ $ kiln render 9.yaml -q -o none --frames 0 --device software --technique simulat
 2|kiln: backdrop.objects: found 9 meshes; the technique simulate=pingpong takes at most 8: use simulate=inplace
 = 2
 
+A saved state of as many systems and painted meshes:
+
+$ cat >painted.obj <<'END'
+> v 0 0 0
+> v 1 0 0
+> v 0 1 0
+> v 0 0 1
+> vt 0 0
+> vt .4 0
+> vt 0 .4
+> vt .6 .6
+> vt 1 .6
+> vt .6 1
+> vt .6 0
+> vt 1 0
+> vt .6 .4
+> vt 0 .6
+> vt .4 .6
+> vt 0 1
+> f 1/1 3/2 2/3
+> f 1/4 2/5 4/6
+> f 1/7 4/8 3/9
+> f 2/10 3/11 4/12
+> END
+$ { printf 'kiln: 1\noutput: {size: [32, 18], frames: 9}\nsystems:\n'
+> bin/series 64 '  s%d: {emit: {rate: 60, from: {box: {origin: [0, 1, 0], size: [8, 0.1, 8]}}}, forces: [gravity: {}], collide: {}, paint: {}}\n'
+> printf 'backdrop:\n  objects:\n'
+> bin/series 64 '    - mesh: {file: painted.obj, position: [0.%d, 0.3, 0], collide: true, cells: 16, paint: {size: 16}}\n'; } >painted.yaml
+> kiln bake painted.yaml -q -o states --every 4 --device cpu
+> kiln render painted.yaml -q -o painted.png --frames 8 --device cpu --stats | grep -w state >whole
+> kiln render painted.yaml -q -o painted.png --force --frames 8 --device cpu --states states --stats | grep -w state | diff whole -
+
 Lights, of which shapes hide each:
 
 $ lights() { printf 'kiln: 1\noutput: {size: [64, 36], frames: 9}\nsystems:\n  fire: {emit: {rate: 600}, look: {light: [9, 4, 1], lights: 16}}\nbackdrop:\n  objects: [box: {center: [0, 1, 0]}, sphere: {center: [2, 1, 0]}]\n  lights:\n'; bin/series "$1" '    - point: {position: [%d, 3, 2], color: [1, 2, 3]}\n'; }
