@@ -14,22 +14,15 @@
 #include "shared/collide_answer.h"
 #include "shared/uses.h"
 
-/* Shaders of scenes without round colliders are compiled without their code. */
-#if defined(GL_core_profile) && !defined(COLLIDE_ROUND)
-#define COLLIDE_IS_ROUND(collider) false
-#else
+/* Kinds of shapes in frames of their own, as a mask. */
+#define COLLIDE_KINDS_ORIENTED ((1u << COLLIDER_TERRAIN) - (1u << COLLIDER_ORIENTED_BOX))
+
 #define COLLIDE_IS_ROUND(collider)                                                                 \
     ((USES(USES_COLLIDERS, COLLIDER_SPHERE) || USES(USES_COLLIDERS, COLLIDER_CYLINDER)) &&         \
      (collider).kind != COLLIDER_BOX)
-#endif
-
-/* Shaders of scenes without shapes in frames of their own are compiled without their code. */
-#if defined(GL_core_profile) && !defined(COLLIDE_ORIENTED)
-#define COLLIDE_IS_ORIENTED(collider) false
-#else
 #define COLLIDE_IS_ORIENTED(collider)                                                              \
-    ((collider).kind >= COLLIDER_ORIENTED_BOX && (collider).kind < COLLIDER_TERRAIN)
-#endif
+    (USES_ANY(USES_COLLIDERS, COLLIDE_KINDS_ORIENTED) &&                                           \
+     (collider).kind >= COLLIDER_ORIENTED_BOX && (collider).kind < COLLIDER_TERRAIN)
 
 /* Shaders of scenes without colliders from grids are compiled without their code. This kind is
  * tested first. */

@@ -58,7 +58,8 @@
 #define STEP_INTEGRATION STEP(integration)
 #endif
 
-#define USES(mask, part) ((((mask) >> (part)) & 1u) != 0u)
+#define USES(mask, part)      ((((mask) >> (part)) & 1u) != 0u)
+#define USES_ANY(mask, parts) (((mask) & (parts)) != 0u)
 
 #define VALUE_OF(keyed, value, time_s, life)                                                       \
     (USES(USES_KEYS, keyed) ? value_at(value, time_s, life) : (value).constant)
@@ -70,8 +71,9 @@
 
 #else
 
-#define STEP_INTEGRATION STEP(integration)
-#define USES(mask, part) true
+#define STEP_INTEGRATION      STEP(integration)
+#define USES(mask, part)      true
+#define USES_ANY(mask, parts) true
 
 #define VALUE_OF(keyed, value, time_s, life)  value_at(value, time_s, life)
 #define VALUE3_OF(keyed, value, time_s, life) value3_at(value, time_s, life)

@@ -170,13 +170,8 @@ static bool has_rubbing(const struct kiln_sim_params *params)
     return any;
 }
 
-/* Masks of kinds of colliders. */
-enum {
-    KINDS_ROUND = 1u << COLLIDER_SPHERE | 1u << COLLIDER_CYLINDER,
-    KINDS_ORIENTED = 1u << COLLIDER_ORIENTED_BOX | 1u << COLLIDER_ORIENTED_CYLINDER |
-                     1u << COLLIDER_CAPSULE | 1u << COLLIDER_PLANE | 1u << COLLIDER_CONE,
-    KINDS_FIELD = 1u << COLLIDER_TERRAIN | 1u << COLLIDER_SDF | 1u << COLLIDER_DEPTH,
-};
+/* The kinds of colliders that look up a grid that does not change. */
+enum { KINDS_FIELD = 1u << COLLIDER_TERRAIN | 1u << COLLIDER_SDF | 1u << COLLIDER_DEPTH };
 
 static void add_define(struct kiln_text *defines, const char *name, bool wanted)
 {
@@ -190,12 +185,9 @@ static void add_defines(struct kiln_text *defines, const struct kiln_device *dev
                         bool families)
 {
     const uint colliders = kiln_sim_colliders_used(scene);
-    const bool oriented = (colliders & KINDS_ORIENTED) != 0;
     const bool grids = params->grids->count > 0, pushes = params->push_count > 0;
     const bool forces = kiln_sim_needs_all_forces(scene);
     kiln_text_add(defines, "#define SIM_GROUP_SIZE %u\n", group_size(device));
-    add_define(defines, "COLLIDE_ROUND", oriented || (colliders & KINDS_ROUND) != 0);
-    add_define(defines, "COLLIDE_ORIENTED", oriented);
     add_define(defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(defines, "GRIDS", grids);
     add_define(defines, "SURROUNDINGS_STORED", kiln_sim_stores_surroundings(scene));

@@ -39,11 +39,11 @@ struct kiln_sim_programs {
     GLuint alone, family; /* 0 if no system needs it */
 };
 
-/* Creates the programs of a kernel. `files` name a kernel that knows the variants COLLIDE_ROUND,
- * COLLIDE_ORIENTED, GRIDS, SURROUNDINGS_STORED, KEYS_STORED, PUSHES, SPINS (with PUSHES and
- * COLLIDE_RUB), FORCES_ALL, SWEEP_ALL (with FORCES_ALL), COLLIDE_FIELD (with GRIDS),
- * COLLIDE_VOLUME, COLLIDE_RUB and FAMILY, and the masks of shaders/shared/uses.h; it also gets the
- * defines in `files`. kiln_sim_programs_finish frees everything, also after a failure. */
+/* Creates the programs of a kernel. `files` name a kernel that knows the variants GRIDS,
+ * SURROUNDINGS_STORED, KEYS_STORED, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL,
+ * SWEEP_ALL (with FORCES_ALL), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY,
+ * and the masks of shaders/shared/uses.h; it also gets the defines in `files`.
+ * kiln_sim_programs_finish frees everything, also after a failure. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,
                             const struct kiln_scene *scene, const struct kiln_sim_params *params,
                             struct kiln_program_params files, struct kiln_error *error);
