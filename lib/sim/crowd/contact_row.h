@@ -11,6 +11,7 @@ struct kiln_contact_row {
     /* Whether pairs are found before they meet, so that the velocities of a step decide how far
      * ahead is searched. */
     bool looks_ahead;
+    bool uses_cells; /* bodies are sorted into cells, in GL by kiln_interact_gl_into_cells */
 
     /* On the host. sort fills bodies and count of a crowd. find is a loop of kiln_threads_for over
      * the bodies of the crowd, its context, and calls crowd_note for each. */

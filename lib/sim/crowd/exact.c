@@ -37,6 +37,7 @@ static bool sort_gl(struct kiln_interact *interact, const struct kiln_interact_p
 
 const struct kiln_contact_row kiln_contact_exact_row = {
     .looks_ahead = true,
+    .uses_cells = true,
     .sort = sort,
     .find = find_partners,
     .files = {[COUNT] = {"sim/crowd/interact_count.comp", "", false},

@@ -8,16 +8,16 @@
 #include "shared/limits.h"
 #include "sim/crowd/contact_row.h"
 
-/* Bits of used_for: the kinds of interaction that a kernel serves. */
-enum { COLLIDE = 1, LOOK_AHEAD = 2, GRAVITY = 4, FLOCK = 8 };
+/* Bits of used_for: the kinds of interaction that a kernel serves, and what several of them do. */
+enum { COLLIDE = 1, LOOK_AHEAD = 2, GRAVITY = 4, FLOCK = 8, CELLS = 16 };
 
 static const struct {
     struct kiln_interact_file source;
     int used_for;
 } KERNELS[KILN_INTERACT_KERNELS] = {
     [KILN_INTERACT_SPEEDS] = {{"sim/crowd/interact_speeds.comp", "", false}, LOOK_AHEAD},
-    [KILN_INTERACT_SCAN] = {{"sim/crowd/interact_scan.comp", "", false}, COLLIDE | FLOCK},
-    [KILN_INTERACT_PLACE] = {{"sim/crowd/interact_place.comp", "", false}, COLLIDE | FLOCK},
+    [KILN_INTERACT_SCAN] = {{"sim/crowd/interact_scan.comp", "", false}, CELLS},
+    [KILN_INTERACT_PLACE] = {{"sim/crowd/interact_place.comp", "", false}, CELLS},
     [KILN_INTERACT_ANSWER] = {{"sim/crowd/interact_answer.comp", "", false}, COLLIDE},
     [KILN_INTERACT_PUSH] = {{"sim/crowd/interact_push.comp", "", false}, COLLIDE},
     [KILN_INTERACT_SOURCES] = {{"sim/crowd/interact_sources.comp", "", false}, GRAVITY},
@@ -28,6 +28,11 @@ static const struct {
     [KILN_INTERACT_FLOCK_STEER] = {{"sim/crowd/interact_flock.comp", "", false}, FLOCK},
 };
 
+static int contact_uses(const struct kiln_contact_row *row)
+{
+    return COLLIDE | (row->looks_ahead ? LOOK_AHEAD : 0) | (row->uses_cells ? CELLS : 0);
+}
+
 static int uses(const struct kiln_scene *scene)
 {
     int all = 0;
@@ -35,11 +40,11 @@ static int uses(const struct kiln_scene *scene)
         const struct kiln_interaction *collide =
             kiln_scene_interaction(scene, i, KILN_INTERACT_COLLIDE);
         if (collide)
-            all |= COLLIDE | (kiln_contact_row(collide->mode)->looks_ahead ? LOOK_AHEAD : 0);
+            all |= contact_uses(kiln_contact_row(collide->mode));
         if (kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY))
             all |= GRAVITY;
         if (kiln_scene_interaction(scene, i, KILN_INTERACT_FLOCK))
-            all |= FLOCK;
+            all |= FLOCK | CELLS;
     }
     return all;
 }
