@@ -34,9 +34,9 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
         return kiln_error_set(
             error, KILN_USAGE, "a work group has %u invocations; %s takes at most %d",
             blocks->group_size, device->info.name, device->info.max_work_group_invocations);
-    const bool stored = kiln_scene_stores_keys(scene);
     kiln_buffer_init(&blocks->keys, device,
-                     (stored ? scene->key_count : KILN_BLOCK_KEYS) * sizeof(float4), "value keys");
+                     kiln_scene_stores_keys(scene) ? 0 : KILN_BLOCK_KEYS * sizeof(float4),
+                     "value keys");
     kiln_buffer_init(&blocks->steps, device,
                      (scene->system_count ? scene->system_count : 1) * blocks->step_stride,
                      "step parameters");
@@ -44,12 +44,12 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
                      kiln_sim_stores_surroundings(scene) ? sizeof(struct kiln_surroundings)
                                                          : KILN_SURROUNDINGS_BLOCK,
                      "surroundings");
+    if (blocks->keys.size == 0)
+        return true;
     float4 *keys = kiln_buffer_host(&blocks->keys, KILN_READ_WRITE, error);
-    if (!keys)
-        return false;
-    if (scene->key_count > 0)
+    if (keys && scene->key_count > 0)
         memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
-    return true;
+    return keys != NULL;
 }
 
 void kiln_sim_blocks_finish(struct kiln_sim_blocks *blocks)
@@ -106,12 +106,15 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
         return false;
     for (uint32_t i = 0; i < params->system_count; i++)
         memcpy(steps + i * blocks->step_stride, &params->systems[i], sizeof params->systems[i]);
-    GLuint key_buffer = kiln_buffer_gl(&blocks->keys, KILN_READ, error);
-    if (!key_buffer || !bind_surroundings(blocks, &params->surroundings, error) ||
+    if (!bind_surroundings(blocks, &params->surroundings, error) ||
         !kiln_buffer_gl(&blocks->steps, KILN_READ, error))
         return false;
-    if (params->grids->key_words == 0)
-        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, key_buffer);
+    if (blocks->keys.size > 0) {
+        GLuint keys = kiln_buffer_gl(&blocks->keys, KILN_READ, error);
+        if (!keys)
+            return false;
+        glBindBufferBase(GL_UNIFORM_BUFFER, SIM_BIND_KEYS, keys);
+    }
     if (params->grids->words.size > 0) {
         GLuint words = kiln_buffer_gl(&params->grids->words, KILN_READ, error);
         if (!words)

@@ -8,9 +8,10 @@
 
 struct kiln_sim_blocks {
     struct kiln_device *device;
-    uint32_t group_size;      /* invocations of a work group that steps slots */
-    size_t step_stride;       /* bytes from one system's parameters to the next's */
-    struct kiln_buffer keys;  /* float4: the scene's keys, room for KILN_BLOCK_KEYS */
+    uint32_t group_size; /* invocations of a work group that steps slots */
+    size_t step_stride;  /* bytes from one system's parameters to the next's */
+    /* float4: the scene's keys, room for KILN_BLOCK_KEYS; empty if they lie before the grids */
+    struct kiln_buffer keys;
     struct kiln_buffer steps; /* struct kiln_step_params, step_stride apart */
     struct kiln_buffer
         surroundings; /* struct kiln_surroundings, or KILN_SURROUNDINGS_BLOCK of it */

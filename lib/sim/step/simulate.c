@@ -117,6 +117,12 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     *simulate = NULL;
 }
 
+/* Returns the buffer in GL that has the scene's keys at its start. */
+static struct kiln_buffer *find_keys(struct kiln_simulate *s)
+{
+    return s->grids.key_words > 0 ? &s->grids.words : &s->blocks.keys;
+}
+
 static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint32_t step,
                            struct kiln_error *error)
 {
@@ -125,7 +131,7 @@ static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint
         return false;
     const bool host = s->row == NULL;
     struct kiln_buffer *pushes = &s->interact.pushes;
-    if (!kiln_interact_gather(&s->interact, &s->params, pool, host ? NULL : &s->blocks.keys, error))
+    if (!kiln_interact_gather(&s->interact, &s->params, pool, host ? NULL : find_keys(s), error))
         return false;
     if (host)
         return kiln_sim_cpu_step(s->step_slots, s->threads, &s->params, s->scene->keys, pool,
