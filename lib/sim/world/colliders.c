@@ -282,8 +282,9 @@ bool kiln_sim_stores_surroundings(const struct kiln_scene *scene)
     const struct kiln_backdrop *backdrop = &scene->backdrop;
     uint32_t count = kiln_backdrop_floor_collides(backdrop), meshes = 0;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
-        count += backdrop->objects[i].collide;
-        meshes += kiln_object_is_mesh(&backdrop->objects[i]);
+        const struct kiln_object *object = &backdrop->objects[i];
+        count += object->collide;
+        meshes += object->collide && kiln_object_is_mesh(object);
     }
     return count > KILN_BLOCK_COLLIDERS || meshes > KILN_BLOCK_MESHES;
 }

@@ -15,7 +15,7 @@
 /* Returns the kind of collider, COLLIDER_*, that an object is whenever it collides. */
 uint kiln_sim_collider_kind(const struct kiln_object *object);
 
-/* Returns whether a scene has too many colliders or meshes for a uniform block. */
+/* Returns whether a scene has too many colliders, or meshes among them, for a uniform block. */
 bool kiln_sim_stores_surroundings(const struct kiln_scene *scene);
 
 /* Fills in the colliders and poses of a step between two clip times; rate: steps a second. Members
