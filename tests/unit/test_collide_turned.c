@@ -155,7 +155,8 @@ static void paths_meet_what_they_should(void **state)
         float3 way = random_in_ball(stream, 20u, true);
         object->axis = fixture_constant3(way.x, way.y, way.z);
         object->rotation = fixture_constant3(way.x * 6.0f, way.y * 3.0f, way.z * 6.0f);
-        const struct kiln_collider c = kiln_oriented_collider(&fixture.scene, object, 0.0f, 1.0f);
+        struct kiln_collider c = kiln_oriented_collider(&fixture.scene, object, 0.0f, 1.0f);
+        c.kind = kiln_oriented_kind(object);
         float3 from = float3_scale(random_in_ball(stream, 30u, false), 2.0f);
         float3 to = float3_scale(random_in_ball(stream, 40u, false), 2.0f);
         const struct kiln_surroundings around = {.collider_count = 1, .colliders = {c}};

@@ -224,7 +224,6 @@ struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
         .extent = with_w(start.extent, 0.0f),
         .extent_end = with_w(end.extent, 0.0f),
         .pose = FLOAT4(start.pose[0], start.pose[1], start.pose[2], start.pose[3]),
-        .kind = kiln_oriented_kind(object),
         .spin = spin,
         .steepest = object->kind == KILN_OBJECT_CONE
                         ? exact_max(edge_growth(start), edge_growth(end))

@@ -14,7 +14,8 @@ bool kiln_object_is_oriented(const struct kiln_object *object);
 /* Returns the kind of such a collider, COLLIDER_*. */
 uint kiln_oriented_kind(const struct kiln_object *object);
 
-/* Makes the collider of a step between two clip times; kiln_object_is_oriented(object) holds. */
+/* Makes the collider of a step between two clip times, but for its kind.
+ * kiln_object_is_oriented(object) holds. */
 struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
                                             const struct kiln_object *object, float start_s,
                                             float end_s);

@@ -302,7 +302,6 @@ struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, u
         .size = {v->size[0], v->size[1], v->size[2], (uint)volume->first},
     };
     struct kiln_collider c = {
-        .kind = COLLIDER_VOLUME,
         .grid = place,
         .planes =
             (uint)(volume->first + mark_words(v)) | (volume->two_sided ? VOLUME_TWO_SIDED : 0),

@@ -32,8 +32,8 @@ void kiln_volumes_finish(struct kiln_volumes *volumes);
 bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *scene, uint32_t step,
                        struct kiln_threads *threads, struct kiln_error *error);
 
-/* Returns an object's collider in the last step made. Its lattice goes into the table of grids, in
- * which volumes begin at `first`. */
+/* Returns an object's collider in the last step made, but for its kind. Its lattice goes into the
+ * table of grids, in which volumes begin at `first`. */
 struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, uint32_t object,
                                            uint32_t first, struct kiln_grid table[KILN_MAX_GRIDS]);
 
