@@ -132,9 +132,10 @@ static size_t count_words(const struct kiln_sim_grids *grids, const struct sourc
 {
     const struct kiln_grid *grid = &grids->table[i];
     const uint32_t k = i - grids->wind_count;
-    size_t count = (size_t)grid->size.x * grid->size.y * grid->size.z;
-    if (i >= grids->wind_count && sources->meshes[k])
-        sources->rows[k]->words(sources->meshes[k], &count);
+    if (i < grids->wind_count || sources->terrains[k])
+        return (size_t)grid->size.x * grid->size.y * grid->size.z;
+    size_t count;
+    sources->rows[k]->words(sources->meshes[k], &count);
     return count;
 }
 
