@@ -22,55 +22,63 @@ static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
 
 #define AUTO "auto"
 
+/* A technique that takes a number is called NAME:N, where N is the `number`, 1 to `most`, `of`. */
+struct numbered {
+    int value; /* value of the stage's enum of techniques where a number is given */
+    uint32_t most;
+    const char *number, *of;
+};
+
 struct row {
     enum stage stage;
     const char *name;
     int value; /* value of the stage's enum of techniques */
     const char *help;
+    /* NULL, or the technique for scenes that this one does not take. Techniques with one are for
+     * comparison with the papers that describe them and lie in folders papers/. `auto` never takes
+     * them. */
+    const char *instead;
+    const struct numbered *numbered; /* NULL: the technique takes no number */
 };
 
+static const struct numbered SPREAD = {KILN_SORT_SPREAD, KILN_SORT_MAX_SPREAD, "number of frames",
+                                       "that the sort is spread over"};
+
 static const struct row ROWS[] = {
-    {SIMULATE, "cpu", KILN_SIMULATE_CPU, "host threads"},
-    {SIMULATE, "inplace", KILN_SIMULATE_INPLACE, "compute, one buffer updated in place"},
+    {SIMULATE, "cpu", KILN_SIMULATE_CPU, .help = "host threads"},
+    {SIMULATE, "inplace", KILN_SIMULATE_INPLACE, .help = "compute, one buffer updated in place"},
     {SIMULATE, "pingpong", KILN_SIMULATE_PINGPONG,
-     "compute, from one buffer to another; it takes twice the memory"},
+     .help = "compute, from one buffer to another; it takes twice the memory",
+     .instead = "simulate=inplace"},
     {SIMULATE, "feedback", KILN_SIMULATE_FEEDBACK,
-     "geometry shaders and transform feedback; they take twice the memory"},
+     .help = "geometry shaders and transform feedback; they take twice the memory",
+     .instead = "simulate=inplace"},
     {SIMULATE, "texels", KILN_SIMULATE_TEXELS,
-     "fragment shaders, from textures to textures; they take three times the memory"},
-    {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
-    {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
-    {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
+     .help = "fragment shaders, from textures to textures; they take three times the memory",
+     .instead = "simulate=inplace"},
+    {SORT, "cpu", KILN_SORT_CPU, .help = "stable radix sort, host threads"},
+    {SORT, "radix", KILN_SORT_RADIX, .help = "stable radix sort, compute"},
+    {SORT, "bitonic", KILN_SORT_BITONIC,
+     .help = "bitonic merge sort, compute, padded to a power of two"},
     {SORT, "oddeven", KILN_SORT_ODDEVEN,
-     "odd-even merge sort, compute; oddeven:N spreads it over N frames"},
-    {BACKDROP, "cpu", KILN_BACKDROP_CPU, "host threads, rays in vectors"},
-    {BACKDROP, "gl", KILN_BACKDROP_GL, "fragment shaders"},
-    {RASTER, "cpu", KILN_RASTER_CPU, "host threads, tiles and vectors"},
+     .help = "odd-even merge sort, compute; oddeven:N spreads it over N frames",
+     .instead = "sort=radix", .numbered = &SPREAD},
+    {BACKDROP, "cpu", KILN_BACKDROP_CPU, .help = "host threads, rays in vectors"},
+    {BACKDROP, "gl", KILN_BACKDROP_GL, .help = "fragment shaders"},
+    {RASTER, "cpu", KILN_RASTER_CPU, .help = "host threads, tiles and vectors"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
-     "points turned into billboards by a geometry shader"},
+     .help = "points turned into billboards by a geometry shader"},
     {RASTER, "instanced", KILN_RASTER_INSTANCED,
-     "a quad for each particle, without a geometry shader"},
+     .help = "a quad for each particle, without a geometry shader"},
     {RASTER, "tiled", KILN_RASTER_TILED,
-     "compute; sprites are sorted into bins, and tiles are drawn from front to back"},
-    {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows"},
-    {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders"},
-    {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows"},
-    {COMPOSITE, "gl", KILN_COMPOSITE_GL, "one fragment shader"},
+     .help = "compute; sprites are sorted into bins, and tiles are drawn from front to back"},
+    {BLOOM, "cpu", KILN_BLOOM_CPU, .help = "host threads, rows"},
+    {BLOOM, "gl", KILN_BLOOM_GL, .help = "fragment shaders"},
+    {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, .help = "host threads, rows"},
+    {COMPOSITE, "gl", KILN_COMPOSITE_GL, .help = "one fragment shader"},
 };
 
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
-
-/* The techniques that take a number, NAME:N, where N is the `number`, 1 to `most`, `of`. */
-static const struct numbered_row {
-    enum stage stage;
-    const char *name;
-    int value; /* value of the stage's enum of techniques where a number is given */
-    uint32_t most;
-    const char *number, *of;
-} NUMBERED_ROWS[] = {
-    {SORT, "oddeven", KILN_SORT_SPREAD, KILN_SORT_MAX_SPREAD, "number of frames",
-     "that the sort is spread over"},
-};
 
 /* The classes of devices that `auto` distinguishes. */
 enum device_class { SOFTWARE, GPU, INEXACT_GPU, CLASS_COUNT };
@@ -134,27 +142,6 @@ static const struct row *find_row(enum stage stage, const char *name)
     return NULL;
 }
 
-/* The techniques for comparison with the papers that describe them, which are in folders papers/.
- * `auto` never takes them. `instead` is for scenes that they do not take. */
-static const struct paper_row {
-    enum stage stage;
-    const char *name, *instead;
-} PAPER_ROWS[] = {
-    {SIMULATE, "pingpong", "simulate=inplace"},
-    {SIMULATE, "feedback", "simulate=inplace"},
-    {SIMULATE, "texels", "simulate=inplace"},
-    {SORT, "oddeven", "sort=radix"},
-};
-
-static const struct numbered_row *find_numbered_row(enum stage stage, const char *name)
-{
-    for (size_t i = 0; i < sizeof NUMBERED_ROWS / sizeof *NUMBERED_ROWS; i++) {
-        if (NUMBERED_ROWS[i].stage == stage && strcmp(NUMBERED_ROWS[i].name, name) == 0)
-            return &NUMBERED_ROWS[i];
-    }
-    return NULL;
-}
-
 static struct choices choose_automatically(const struct kiln_device_info *device)
 {
     struct choices choices = {0};
@@ -188,16 +175,18 @@ static bool take_number(enum stage stage, char *name, uint32_t *number, struct k
     if (!colon)
         return true;
     *colon = '\0';
-    const struct numbered_row *row = find_numbered_row(stage, name);
-    if (!row) {
+    const struct row *row = find_row(stage, name);
+    const struct numbered *numbered = row ? row->numbered : NULL;
+    if (!numbered) {
         *colon = ':';
         return true;
     }
     uint64_t value = 0;
-    if (!kiln_text_to_uint64(colon + 1, &value) || value < 1 || value > row->most)
-        return kiln_error_set(
-            error, KILN_USAGE, "technique: %s=%s:%s: expected %s:N, where N is the %s, 1 to %u, %s",
-            STAGE_NAMES[stage], name, colon + 1, name, row->number, row->most, row->of);
+    if (!kiln_text_to_uint64(colon + 1, &value) || value < 1 || value > numbered->most)
+        return kiln_error_set(error, KILN_USAGE,
+                              "technique: %s=%s:%s: expected %s:N, where N is the %s, 1 to %u, %s",
+                              STAGE_NAMES[stage], name, colon + 1, name, numbered->number,
+                              numbered->most, numbered->of);
     *number = (uint32_t)value;
     return true;
 }
@@ -257,7 +246,7 @@ static const struct row *find_gl(const struct choices *choices)
 static int value_of(const struct choices *choices, enum stage stage)
 {
     const struct row *row = choices->rows[stage];
-    return choices->numbers[stage] > 0 ? find_numbered_row(stage, row->name)->value : row->value;
+    return choices->numbers[stage] > 0 ? row->numbered->value : row->value;
 }
 
 static bool refuse_gl(const struct row *row, const char *device, struct kiln_error *error)
@@ -317,13 +306,13 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
 bool kiln_techniques_paper(const struct kiln_techniques *techniques, char name[KILN_TECHNIQUE_SIZE],
                            const char **instead)
 {
-    for (size_t i = 0; i < sizeof PAPER_ROWS / sizeof *PAPER_ROWS; i++) {
-        const struct paper_row *row = &PAPER_ROWS[i];
-        if (strcmp(techniques->choices[row->stage].name, row->name) != 0)
-            continue;
-        snprintf(name, KILN_TECHNIQUE_SIZE, "%s=%s", STAGE_NAMES[row->stage], row->name);
-        *instead = row->instead;
-        return true;
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        const char *chosen = techniques->choices[stage].name;
+        *instead = find_row((enum stage)stage, chosen)->instead;
+        if (*instead) {
+            snprintf(name, KILN_TECHNIQUE_SIZE, "%s=%s", STAGE_NAMES[stage], chosen);
+            return true;
+        }
     }
     return false;
 }
