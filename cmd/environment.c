@@ -21,7 +21,7 @@ const struct variable variables[] = {
      "The folder in which kiln keeps results that take long to make for later jobs, instead of "
      "~/.cache: flipbooks and distance fields of meshes in a folder kiln, built programs of OpenGL "
      "in a folder kiln-programs. The second is used only where nobody but this user has rights to "
-     "it. /dev/null keeps nothing."},
+     "it and others cannot rename it. /dev/null keeps nothing."},
     {"HOME", "The home folder, whose .cache keeps results where XDG_CACHE_HOME is not set. "
              "Without both variables, nothing is kept from run to run."},
     {"TMPDIR", "The folder in which 'kiln bench' and 'kiln test calibrate' write temporary "

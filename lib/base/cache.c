@@ -39,13 +39,31 @@ bool kiln_cache_folder(char folder[KILN_PATH_SIZE])
     return find_folder(folder, "kiln");
 }
 
+/* Makes a folder with rights for this user alone if it is missing. */
+static bool make_own_folder(const char *path)
+{
+    return mkdir(path, 0700) == 0 || errno == EEXIST;
+}
+
+/* Returns whether nobody but this user and root may put another file in the place of one that lies
+ * in a folder. */
+static bool keeps_files(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && (status.st_uid == geteuid() || status.st_uid == 0) &&
+           ((status.st_mode & (S_IWGRP | S_IWOTH)) == 0 || (status.st_mode & S_ISVTX) != 0);
+}
+
 bool kiln_cache_private_folder(char folder[KILN_PATH_SIZE])
 {
     struct kiln_error ignored = {0};
     struct stat status;
-    if (!find_folder(folder, "kiln-programs") || !kiln_make_parent_folders(folder, &ignored))
+    char parent[KILN_PATH_SIZE];
+    if (!find_folder(folder, "kiln-programs"))
         return false;
-    if (mkdir(folder, 0700) != 0 && errno != EEXIST)
+    snprintf(parent, sizeof parent, "%.*s", (int)(strrchr(folder, '/') - folder), folder);
+    if (!kiln_make_parent_folders(parent, &ignored) || !make_own_folder(parent) ||
+        !keeps_files(parent) || !make_own_folder(folder))
         return false;
     return lstat(folder, &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
            (status.st_mode & (S_IRWXG | S_IRWXO)) == 0;

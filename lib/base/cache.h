@@ -15,8 +15,9 @@ bool kiln_cache_folder(char folder[KILN_PATH_SIZE]);
 
 /* Finds the folder of files that a driver trusts: $XDG_CACHE_HOME/kiln-programs, or
  * $HOME/.cache/kiln-programs, and makes it if it is missing. A forged file there could run code in
- * this process. So the folder lies outside of the one that a sandbox lets a job write, and nobody
- * but this user may have rights to it. False: there is no such folder, and none can be made. */
+ * this process. So the folder lies outside of the one that a sandbox lets a job write, nobody but
+ * this user may have rights to it, and nobody but this user and root may rename it. False: there is
+ * no such folder, and none can be made. */
 bool kiln_cache_private_folder(char folder[KILN_PATH_SIZE]);
 
 /* Reads the file of a name into `bytes` if it has this size. False: there is no such file, or it is

@@ -7,6 +7,15 @@
 #include "base/error.h"
 #include "scene/work.h"
 
+/* The most that a scene may have for a technique of papers/. */
+enum {
+    PAPER_SYSTEMS = 16,
+    PAPER_FORCES = 16,
+    PAPER_OBJECTS = 32,
+    PAPER_MESHES = 8,
+    PAPER_LIGHTS = 16,
+};
+
 static uint32_t most_forces(const struct kiln_scene *scene)
 {
     uint32_t most = 0;
@@ -72,12 +81,12 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
         const char *path, *noun;
         uint32_t found, most;
     } rows[] = {
-        {"systems", "systems", scene->system_count, 16},
-        {"forces", "forces of a system", most_forces(scene), 16},
+        {"systems", "systems", scene->system_count, PAPER_SYSTEMS},
+        {"forces", "forces of a system", most_forces(scene), PAPER_FORCES},
         {"scene", "keys", scene->key_count, KILN_BLOCK_KEYS},
-        {"backdrop.objects", "objects", scene->backdrop.object_count, 32},
-        {"backdrop.objects", "meshes", count_meshes(scene), 8},
-        {"backdrop.lights", "lights", scene->backdrop.light_count, 16},
+        {"backdrop.objects", "objects", scene->backdrop.object_count, PAPER_OBJECTS},
+        {"backdrop.objects", "meshes", count_meshes(scene), PAPER_MESHES},
+        {"backdrop.lights", "lights", scene->backdrop.light_count, PAPER_LIGHTS},
     };
     const bool found = kiln_techniques_paper(techniques, paper, &instead);
     for (size_t i = 0; found && i < sizeof rows / sizeof *rows; i++) {

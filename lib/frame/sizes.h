@@ -5,8 +5,9 @@
 
 #include "frame/technique.h"
 
-/* Returns whether the techniques take a scene with so many systems, forces and keys. Otherwise
- * fills the error with KILN_USAGE: the technique, the size and the technique's limit. */
+/* Returns whether the techniques take a scene of this size. Otherwise fills the error with
+ * KILN_USAGE: what there is too much of, how much of it, how much is allowed, and what takes more.
+ */
 bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                       struct kiln_error *error);
 

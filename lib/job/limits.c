@@ -8,6 +8,7 @@
 #include "base/sized.h"
 #include "base/text.h"
 #include "kiln_program.h"
+#include "option/node.h"
 #include "option/unit.h"
 #include "scene/small_steps.h"
 
@@ -154,28 +155,39 @@ static const struct size {
     const char *name;
     unsigned long long most;
     const char *help;
+    unsigned most_in_gl; /* a lower limit of devices of OpenGL; 0: there is none */
+    const char *of;      /* what the lower limit holds for, after "of them"; or NULL */
 } sizes[] = {
-    {"systems", KILN_MAX_SYSTEMS, "Particle systems."},
-    {"particles", KILN_MAX_PARTICLES, "Particles that may live at once; in OpenGL, 16777216."},
-    {"forces", KILN_MAX_FORCES, "Forces of a system."},
-    {"bursts", KILN_MAX_BURSTS, "Bursts of a system."},
-    {"demitters", KILN_MAX_DEMITTERS, "Boxes of a system in which particles die."},
-    {"generations", KILN_MAX_GENERATIONS, "Generations of systems, parents to last descendants."},
-    {"textures", KILN_MAX_TEXTURES, "Textures of a system."},
-    {"cells", KILN_MAX_CELLS, "Cells of a texture; in OpenGL, of all textures together."},
-    {"keys", KILN_MAX_VALUE_KEYS, "Keys of all values; in OpenGL, 1024 of them of lives."},
-    {"objects", KILN_MAX_OBJECTS, "Objects of the backdrop, meshes and terrain included."},
-    {"meshes", KILN_MAX_MESHES, "Meshes and terrains of the backdrop."},
-    {"lights", KILN_MAX_LIGHTS, "Lights of the backdrop."},
-    {"winds", KILN_MAX_WINDS, "Files of wind."},
-    {"steps", KILN_MAX_STEPS, "Steps of a run, warm-up included."},
+    {"systems", KILN_MAX_SYSTEMS, .help = "Particle systems"},
+    {"particles", KILN_MAX_PARTICLES, .help = "Particles that may live at once",
+     .most_in_gl = KILN_MAX_GL_PARTICLES},
+    {"forces", KILN_MAX_FORCES, .help = "Forces of a system"},
+    {"bursts", KILN_MAX_BURSTS, .help = "Bursts of a system"},
+    {"demitters", KILN_MAX_DEMITTERS, .help = "Boxes of a system in which particles die"},
+    {"generations", KILN_MAX_GENERATIONS,
+     .help = "Generations of systems, parents to last descendants"},
+    {"textures", KILN_MAX_TEXTURES, .help = "Textures of a system"},
+    {"cells", KILN_MAX_CELLS, .help = "Cells of a texture; in OpenGL, of all textures together"},
+    {"entries", KILN_NODE_MAX_ENTRIES,
+     .help = "Entries of a list or mapping, such as the keys of a value"},
+    {"keys", KILN_MAX_VALUE_KEYS, .help = "Keys of all values", .most_in_gl = KILN_BLOCK_KEYS,
+     .of = "lives"},
+    {"objects", KILN_MAX_OBJECTS, .help = "Objects of the backdrop, meshes and terrain included"},
+    {"meshes", KILN_MAX_MESHES, .help = "Meshes and terrains of the backdrop"},
+    {"lights", KILN_MAX_LIGHTS, .help = "Lights of the backdrop"},
+    {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
+    {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };
 
 static void write_sizes(FILE *out)
 {
     fputs("\nA scene has at most these, whatever the limits:\n\n", out);
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        fprintf(out, "%-14s%-12llu%s\n", sizes[i].name, sizes[i].most, sizes[i].help);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        fprintf(out, "%-14s%-12llu%s", sizes[i].name, sizes[i].most, sizes[i].help);
+        if (sizes[i].most_in_gl > 0)
+            fprintf(out, "; in OpenGL, %u", sizes[i].most_in_gl);
+        fprintf(out, "%s%s.\n", sizes[i].of ? " of them of " : "", sizes[i].of ? sizes[i].of : "");
+    }
 }
 
 /* Writes the least speeds that are true to 1 %, for some distances from the origin and rates. */

@@ -71,6 +71,8 @@ static bool reserve_keys(struct kiln_reader *reader, uint32_t count)
     return true;
 }
 
+_Static_assert((int)KILN_NODE_MAX_ENTRIES <= VALUE_MAX_KEYS, "the search finds every key");
+
 static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node,
                         struct curve *curve, uint32_t clock)
 {

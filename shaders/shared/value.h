@@ -32,6 +32,8 @@ struct kiln_range {
     S(kiln_value) min, max;
 };
 
+#define VALUE_MAX_KEYS 1024 /* keys of one value */
+
 #ifdef GL_core_profile
 #define VALUE_KEYS
 #define VALUE_KEYS_PARAM
@@ -64,10 +66,11 @@ uint value_try(uint k, uint distance, uint last, float x)
     return value_keys[other].x <= x ? other : k;
 }
 
+/* The distances add up to 1,023, and a value has at most VALUE_MAX_KEYS keys. */
 uint value_find(kiln_value v, float x)
 {
     uint last = v.first + v.count - 1u;
-    uint k = value_try(v.first, 512u, last, x); /* the distances reach KILN_BLOCK_KEYS - 1 */
+    uint k = value_try(v.first, 512u, last, x);
     k = value_try(k, 256u, last, x);
     k = value_try(k, 128u, last, x);
     k = value_try(k, 64u, last, x);

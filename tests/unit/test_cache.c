@@ -47,6 +47,18 @@ static void one_folder_is_private(void **state)
         assert_int_equal(chmod("cache/kiln-programs", (mode_t)(0700 | 1 << i)), 0);
         assert_false(kiln_cache_private_folder(folder));
     }
+    assert_int_equal(chmod("cache/kiln-programs", 0700), 0);
+
+    /* Others who may rename the folder could put theirs in its place. */
+    static const mode_t kept[] = {0700, 0755, 01777, 01770};
+    static const mode_t open_to_others[] = {0777, 0775, 0702, 0720};
+    for (size_t i = 0; i < 4; i++) {
+        assert_int_equal(chmod("cache", kept[i]), 0);
+        assert_true(kiln_cache_private_folder(folder));
+        assert_int_equal(chmod("cache", open_to_others[i]), 0);
+        assert_false(kiln_cache_private_folder(folder));
+    }
+    assert_int_equal(chmod("cache", 0700), 0);
     assert_int_equal(rmdir("cache/kiln-programs"), 0);
     test_write_file("cache/kiln-programs", "");
     assert_false(kiln_cache_private_folder(folder));

@@ -119,6 +119,7 @@ $ kiln help limits | sed -n '20,$p'
 1|generations   4           Generations of systems, parents to last descendants.
 1|textures      8           Textures of a system.
 1|cells         2048        Cells of a texture; in OpenGL, of all textures together.
+1|entries       1024        Entries of a list or mapping, such as the keys of a value.
 1|keys          65536       Keys of all values; in OpenGL, 1024 of them of lives.
 1|objects       256         Objects of the backdrop, meshes and terrain included.
 1|meshes        64          Meshes and terrains of the backdrop.
