@@ -1,5 +1,5 @@
-/* Finds the living particles in a list of slots. Each invocation takes a stretch of SORT_ITEMS slots.
- * The file that includes this one defines slot_of and is_listed. */
+/* Finds the living particles in a list of slots. Each invocation takes a stretch of SORT_ITEMS
+ * slots. The file that includes this one defines slot_of and is_listed. */
 #ifndef KILN_SORT_ALIVE_GLSL
 #define KILN_SORT_ALIVE_GLSL
 

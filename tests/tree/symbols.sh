@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Checks the compiled objects of lib/ in a build folder: symbols.sh BUILD. Each room (folder) of lib/
-# may use only symbols of rooms of a lower rank; rooms.awk lists the ranks, and the files that may use folders
-# papers/. If this fails, a layer of
-# the library uses a higher layer, or another layer of the same rank. includes.sh checks the same for headers, but does not see the use of a
+# Checks the compiled objects of lib/ in a build folder: symbols.sh BUILD. Each room (folder) of
+# lib/ may use only symbols of rooms of a lower rank; rooms.awk lists the ranks, and the files that
+# may use folders papers/. If this fails, a layer of the library uses a higher layer, or another
+# layer of the same rank. includes.sh checks the same for headers, but does not see the use of a
 # function that is declared in kiln.h, which every room may include.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk

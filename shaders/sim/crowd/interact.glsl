@@ -1,6 +1,7 @@
 /* Declares the buffers and parameters of the kernels shaders/sim/crowd/interact_*.comp, which
  * compute the interactions of the particles of a system: collisions, gravity, flocking. Those
- * kernels include it first; interact_scan.comp needs one buffer and declares it itself. lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
+ * kernels include it first; interact_scan.comp needs one buffer and declares it itself.
+ * lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
  *
  * A body is a living particle of the system, copied into order of cells. The functions in
  * shared/interact_*.h read these globals by the macros of shared/interact_layout.h, and the host's

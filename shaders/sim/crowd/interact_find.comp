@@ -1,6 +1,6 @@
-/* Finds each body's closest partner, once a round. MOST_AROUND is for software GL, which ends long loops early:
- * bodies with more than MOST_AROUND others around get no partner, and the word behind all cells gets
- * the number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
+/* Finds each body's closest partner, once a round. MOST_AROUND is for software GL, which ends long
+ * loops early: bodies with more than MOST_AROUND others around get no partner, and the word behind
+ * all cells gets the number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
 // variant:
 // variant: KEYS_STORED=1
 // variant: MOST_AROUND=65000u

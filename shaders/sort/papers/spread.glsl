@@ -1,6 +1,6 @@
-/* Declares an order of all slots that is kept from frame to frame (lib/sort/papers/spread.c), as pairs of a
- * key and a slot. While they are sorted, the slot is replaced by its rank: the place of its
- * (system, serial) among all slots. */
+/* Declares an order of all slots that is kept from frame to frame (lib/sort/papers/spread.c), as
+ * pairs of a key and a slot. While they are sorted, the slot is replaced by its rank: the place of
+ * its (system, serial) among all slots. */
 #ifndef KILN_SORT_PAPERS_SPREAD_GLSL
 #define KILN_SORT_PAPERS_SPREAD_GLSL
 

@@ -1,6 +1,6 @@
-/* Declares what the kernels of the staggered grids have beside sim/crowd/interact.glsl. entries[] has
- * the key of a cell (high, low word), by which the entries are sorted, then a slot or a body. Of the
- * cells, only the last one's word is used: how many bodies there are. */
+/* Declares what the kernels of the staggered grids have beside sim/crowd/interact.glsl. entries[]
+ * has the key of a cell (high, low word), by which the entries are sorted, then a slot or a body.
+ * Of the cells, only the last one's word is used: how many bodies there are. */
 #ifndef KILN_SIM_CROWD_PAPERS_STAGGERED_GLSL
 #define KILN_SIM_CROWD_PAPERS_STAGGERED_GLSL
 

@@ -1,5 +1,5 @@
-/* Counts the bodies of the system, writes their entries for the first grid, and empties the pushes of
- * the system. The number of entries is a power of two; those without a body sort last. */
+/* Counts the bodies of the system, writes their entries for the first grid, and empties the pushes
+ * of the system. The number of entries is a power of two; those without a body sort last. */
 #include "sim/crowd/papers/staggered.glsl"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
