@@ -1,30 +1,17 @@
 /* This file steps particles in place, in one compute dispatch a system. One invocation reads and
  * writes each slot, so no second buffer is needed. */
-#include <stdlib.h>
-
-#include "base/error.h"
 #include "sim/step/row.h"
 
-static void destroy(void *technique)
+static void finish(void *technique)
 {
-    struct kiln_sim_programs *programs = technique;
-    kiln_sim_programs_finish(programs);
-    free(programs);
+    kiln_sim_programs_finish(technique);
 }
 
-static void *create(struct kiln_device *device, const struct kiln_scene *scene,
-                    const struct kiln_sim_params *params, struct kiln_error *error)
+static bool init(void *technique, struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_sim_params *params, struct kiln_error *error)
 {
     const struct kiln_program_params files = {.compute = "sim/step/inplace.comp"};
-    struct kiln_sim_programs *programs = calloc(1, sizeof *programs);
-    if (!programs) {
-        kiln_error_no_memory(error, "the simulation");
-        return NULL;
-    }
-    if (kiln_sim_programs_init(programs, device, scene, params, files, error))
-        return programs;
-    destroy(programs);
-    return NULL;
+    return kiln_sim_programs_init(technique, device, scene, params, files, error);
 }
 
 static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
@@ -49,4 +36,9 @@ static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
 }
 
 const struct kiln_simulate_row kiln_simulate_inplace_row = {
-    .copies = 1, .create = create, .destroy = destroy, .step = step_pool};
+    .copies = 1,
+    .size = sizeof(struct kiln_sim_programs),
+    .init = init,
+    .finish = finish,
+    .step = step_pool,
+};

@@ -40,7 +40,7 @@ struct kiln_simulate {
     /* the following are for techniques in GL */
     struct kiln_sim_blocks blocks;
     struct kiln_sim_hash hash;
-    void *technique; /* what the row created */
+    void *technique; /* of the size that the row says */
 };
 
 static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
@@ -55,8 +55,10 @@ static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
     if (!kiln_sim_blocks_init(&s->blocks, device, s->scene, error) ||
         !kiln_sim_hash_init(&s->hash, device, error))
         return false;
-    s->technique = s->row->create(device, s->scene, &s->params, error);
-    return s->technique != NULL;
+    s->technique = calloc(1, s->row->size);
+    if (!s->technique)
+        return kiln_error_no_memory(error, "the simulation");
+    return s->row->init(s->technique, device, s->scene, &s->params, error);
 }
 
 static bool choose_loop(struct kiln_simulate *s, struct kiln_error *error)
@@ -104,7 +106,8 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
         return;
     if (s->blocks.device) { /* kiln_sim_blocks_init makes the first of these GL objects */
         if (s->technique)
-            s->row->destroy(s->technique);
+            s->row->finish(s->technique);
+        free(s->technique);
         kiln_sim_hash_finish(&s->hash);
         kiln_sim_blocks_finish(&s->blocks);
     }

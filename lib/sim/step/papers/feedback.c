@@ -4,9 +4,7 @@
  * in the pool's slots, as with every technique, where it is hashed, sorted, drawn and saved.
  * Children read their parents' traces from storage blocks, as in compute. */
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "base/error.h"
 #include "gpu/capture.h"
 #include "shared/papers/step_layout.h"
 #include "sim/step/papers/common.h"
@@ -27,7 +25,7 @@ static uint32_t emitter_births(const struct kiln_device *device)
     return device->info.software ? 1 : SIM_EMITTER_BIRTHS;
 }
 
-static void destroy(void *technique)
+static void finish(void *technique)
 {
     struct feedback *feedback = technique;
     kiln_capture_finish(&feedback->capture);
@@ -40,13 +38,12 @@ static void destroy(void *technique)
     if (feedback->born)
         glDeleteTransformFeedbacks(1, &feedback->born);
     kiln_buffer_finish(&feedback->stream);
-    free(feedback);
 }
 
-static bool init(struct feedback *feedback, struct kiln_device *device,
-                 const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                 struct kiln_error *error)
+static bool init(void *technique, struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_sim_params *params, struct kiln_error *error)
 {
+    struct feedback *feedback = technique;
     kiln_buffer_init(&feedback->stream, device, 0, KILN_SIM_SECOND);
     if (!kiln_sim_check_stage(device, params, KILN_PROBE_GEOMETRY, error) ||
         !kiln_capture_init(&feedback->capture, device, 2, error))
@@ -70,20 +67,6 @@ static bool init(struct feedback *feedback, struct kiln_device *device,
         device, &(struct kiln_program_params){.vertex = "sim/step/papers/feedback_place.vert"},
         error);
     return feedback->place_program != 0;
-}
-
-static void *create(struct kiln_device *device, const struct kiln_scene *scene,
-                    const struct kiln_sim_params *params, struct kiln_error *error)
-{
-    struct feedback *feedback = calloc(1, sizeof *feedback);
-    if (!feedback) {
-        kiln_error_no_memory(error, "the simulation");
-        return NULL;
-    }
-    if (init(feedback, device, scene, params, error))
-        return feedback;
-    destroy(feedback);
-    return NULL;
 }
 
 static const size_t RECORD = sizeof(struct kiln_particle);
@@ -176,4 +159,9 @@ static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
 }
 
 const struct kiln_simulate_row kiln_simulate_feedback_row = {
-    .copies = 2, .create = create, .destroy = destroy, .step = step_pool};
+    .copies = 2,
+    .size = sizeof(struct feedback),
+    .init = init,
+    .finish = finish,
+    .step = step_pool,
+};

@@ -1,8 +1,5 @@
 /* This file steps particles in compute from the pool's buffer into a second one. Then the two
  * buffers change places, so no record is copied. */
-#include <stdlib.h>
-
-#include "base/error.h"
 #include "shared/papers/step_layout.h"
 #include "sim/step/papers/common.h"
 #include "sim/step/papers/papers.h"
@@ -12,35 +9,20 @@ struct pingpong {
     struct kiln_buffer second; /* as large as the pool's records */
 };
 
-static void destroy(void *technique)
+static void finish(void *technique)
 {
     struct pingpong *pingpong = technique;
     kiln_sim_programs_finish(&pingpong->programs);
     kiln_buffer_finish(&pingpong->second);
-    free(pingpong);
 }
 
-static bool init(struct pingpong *pingpong, struct kiln_device *device,
-                 const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                 struct kiln_error *error)
+static bool init(void *technique, struct kiln_device *device, const struct kiln_scene *scene,
+                 const struct kiln_sim_params *params, struct kiln_error *error)
 {
+    struct pingpong *pingpong = technique;
     kiln_buffer_init(&pingpong->second, device, 0, KILN_SIM_SECOND);
     const struct kiln_program_params files = {.compute = "sim/step/papers/pingpong.comp"};
     return kiln_sim_programs_init(&pingpong->programs, device, scene, params, files, error);
-}
-
-static void *create(struct kiln_device *device, const struct kiln_scene *scene,
-                    const struct kiln_sim_params *params, struct kiln_error *error)
-{
-    struct pingpong *pingpong = calloc(1, sizeof *pingpong);
-    if (!pingpong) {
-        kiln_error_no_memory(error, "the simulation");
-        return NULL;
-    }
-    if (init(pingpong, device, scene, params, error))
-        return pingpong;
-    destroy(pingpong);
-    return NULL;
 }
 
 static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
@@ -68,4 +50,9 @@ static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
 }
 
 const struct kiln_simulate_row kiln_simulate_pingpong_row = {
-    .copies = 2, .create = create, .destroy = destroy, .step = step_pool};
+    .copies = 2,
+    .size = sizeof(struct pingpong),
+    .init = init,
+    .finish = finish,
+    .step = step_pool,
+};

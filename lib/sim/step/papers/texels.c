@@ -1,9 +1,6 @@
 /* Steps particles in fragment shaders, with the state in textures. After each step the state is
  * copied into the pool's records, which the other stages and the hash read. It is copied back from
  * the records when another technique has run the step before. */
-#include <stdlib.h>
-
-#include "base/error.h"
 #include "gpu/integer_textures.h"
 #include "shared/papers/step_layout.h"
 #include "sim/step/papers/common.h"
@@ -17,7 +14,7 @@ struct texels {
     uint32_t step; /* the step after which `state` is; 0: none */
 };
 
-static void destroy(void *technique)
+static void finish(void *technique)
 {
     struct texels *texels = technique;
     kiln_sim_programs_finish(&texels->programs);
@@ -27,12 +24,12 @@ static void destroy(void *technique)
         glDeleteProgram(texels->from_records);
     kiln_integer_textures_finish(&texels->state);
     kiln_integer_textures_finish(&texels->next);
-    free(texels);
 }
 
-static bool init(struct texels *texels, struct kiln_device *device, const struct kiln_scene *scene,
+static bool init(void *technique, struct kiln_device *device, const struct kiln_scene *scene,
                  const struct kiln_sim_params *params, struct kiln_error *error)
 {
+    struct texels *texels = technique;
     if (!kiln_sim_check_stage(device, params, KILN_PROBE_FRAGMENT, error))
         return false;
     struct kiln_program_params files = {.compute = "sim/step/papers/texels_copy.comp"};
@@ -45,20 +42,6 @@ static bool init(struct texels *texels, struct kiln_device *device, const struct
                                          .fragment = "sim/step/papers/texels.frag"};
     return texels->from_records &&
            kiln_sim_programs_init(&texels->programs, device, scene, params, files, error);
-}
-
-static void *create(struct kiln_device *device, const struct kiln_scene *scene,
-                    const struct kiln_sim_params *params, struct kiln_error *error)
-{
-    struct texels *texels = calloc(1, sizeof *texels);
-    if (!texels) {
-        kiln_error_no_memory(error, "the simulation");
-        return NULL;
-    }
-    if (init(texels, device, scene, params, error))
-        return texels;
-    destroy(texels);
-    return NULL;
 }
 
 static bool make_textures(struct texels *texels, struct kiln_device *device,
@@ -131,4 +114,9 @@ static bool step_pool(void *technique, const struct kiln_sim_blocks *blocks,
 }
 
 const struct kiln_simulate_row kiln_simulate_texels_row = {
-    .copies = 3, .create = create, .destroy = destroy, .step = step_pool};
+    .copies = 3,
+    .size = sizeof(struct texels),
+    .init = init,
+    .finish = finish,
+    .step = step_pool,
+};
