@@ -31,12 +31,6 @@
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
-#ifdef SHAPES_STORED
-layout(std430, binding = KILN_BIND_STORED_SHAPES) readonly buffer stored_block
-{
-    kiln_draw_shape stored_shapes[];
-};
-#endif
 
 layout(location = BACKDROP_AT_EDGES) uniform bool at_edges;
 

@@ -5,6 +5,10 @@
 #include "shared/shapes.h"
 
 #ifdef SHAPES_STORED
+layout(std430, binding = KILN_BIND_STORED_SHAPES) readonly buffer stored_block
+{
+    kiln_draw_shape stored_shapes[];
+};
 #define SHAPE stored_shapes
 /* Whether a shape may hide lamp `light`; light -1: the sun, which each may hide. */
 #define MAY_HIDE(light, i)                                                                         \

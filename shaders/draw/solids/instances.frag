@@ -10,12 +10,6 @@
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
-#ifdef SHAPES_STORED
-layout(std430, binding = KILN_BIND_STORED_SHAPES) readonly buffer stored_block
-{
-    kiln_draw_shape stored_shapes[];
-};
-#endif
 layout(binding = KILN_UNIT_SCENE_DEPTH) uniform sampler2D scene_depth;
 
 #include "draw/backdrop/surface.glsl"
