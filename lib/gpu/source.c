@@ -1,8 +1,9 @@
 /* This file joins shader files by their includes and maps lines of the driver's messages back to
- * the files. A header with an include guard that was inserted outside of every #if is inserted only
- * once: a kernel would otherwise have millions of lines. Other files are inserted each time they
- * are included, since only the GLSL preprocessor knows which parts of #if it reads. Lines with
- * "#include <...>" are for the C side of shared headers and are left out. */
+ * the files. A header with an include guard is not inserted again in the branch of #if where it was
+ * inserted, nor in branches inside that one: a kernel would otherwise have millions of lines. In
+ * other branches it is, since only the GLSL preprocessor knows which branches it reads. Files
+ * without an include guard are inserted each time they are included. Lines with "#include <...>"
+ * are for the C side of shared headers and are left out. */
 #include "gpu/source.h"
 
 #include <ctype.h>

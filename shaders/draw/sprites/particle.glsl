@@ -142,8 +142,7 @@ void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float st
 
 #endif
 
-/* Makes the billboard, point or line of a draw entry: the system in its highest 8 bits, the slot in
- * the other 24. */
+/* Makes the billboard, point or line of a draw entry, which is a KILN_ENTRY. */
 void make_billboard(uint entry)
 {
     uint system = KILN_ENTRY_SYSTEM(entry);
