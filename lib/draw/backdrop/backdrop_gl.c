@@ -21,6 +21,13 @@
 
 static_assert(KILN_BIND_STORED_SHAPES > SORT_BIND_TOTAL, "bound from the backdrop to the solids");
 
+/* Bytes of the uniform block of shapes, which has the first shapes alone. */
+enum {
+    SHAPES_BLOCK_BYTES = offsetof(struct kiln_draw_shapes, shapes) +
+                         KILN_BLOCK_SHAPES * sizeof(struct kiln_draw_shape)
+};
+static_assert(SHAPES_BLOCK_BYTES <= 16384, "what every GL allows a uniform block");
+
 enum { PASS_CENTERS, PASS_EDGES, PASSES };
 
 struct kiln_backdrop_gl {
@@ -99,10 +106,7 @@ struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
     }
     glGenVertexArrays(1, &stage->vertex_array);
     kiln_draw_blocks_init(&stage->blocks, device);
-    kiln_buffer_init(&stage->shapes_buffer, device,
-                     offsetof(struct kiln_draw_shapes, shapes) +
-                         KILN_BLOCK_SHAPES * sizeof(struct kiln_draw_shape),
-                     "shapes");
+    kiln_buffer_init(&stage->shapes_buffer, device, SHAPES_BLOCK_BYTES, "shapes");
     kiln_buffer_init(&stage->stored_shapes, device,
                      KILN_MAX_OBJECTS * sizeof(struct kiln_draw_shape), "stored shapes");
     return stage;
