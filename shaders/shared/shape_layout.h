@@ -75,11 +75,15 @@
 #define KILN_INSTANCE_SHARP 0.3f
 #define KILN_INSTANCE_ROUND 0.7f
 
+/* The paint of a mesh is one number: 1 + its layer of the textures of paint, plus KILN_PAINT_LAYERS
+ * times the finest mip level that it has there; 0: the mesh takes no paint. */
+#define KILN_PAINT_LAYERS       128
+#define KILN_PAINT_LAYER(paint) (INT(paint) % KILN_PAINT_LAYERS - 1)
+#define KILN_PAINT_LEVEL(paint) (INT(paint) / KILN_PAINT_LAYERS)
+
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
-    /* w: 1 + the mesh's layer of the textures of paint (at most 127 layers), plus 128 times the
-     * finest mip level that its paint has; 0: the mesh takes no paint */
-    float4 color;
+    float4 color;       /* w: paint */
     float4 center; /* centre of its bounds in the world, m; w: radius of the sphere around them */
     /* half of the bounds, m; w: time of its animation, s. Shaders do not read the time; the host
      * compares it to see whether pictures and maps of the mesh still hold. */

@@ -303,8 +303,8 @@ static void upload_paint(struct kiln_meshes_gl *m, const struct kiln_draw_shapes
         const struct kiln_pyramid *p = kiln_painted_picture(m->painted, i);
         if (!p || kiln_painted_changes(m->painted, i) == m->paint_changes[i])
             continue;
-        const GLint where = (GLint)shapes->meshes[i].color.w;
-        const GLint layer = where % 128 - 1, first = where / 128;
+        const float paint = shapes->meshes[i].color.w;
+        const GLint layer = KILN_PAINT_LAYER(paint), first = KILN_PAINT_LEVEL(paint);
         for (uint32_t level = 0; level < p->levels; level++)
             glTexSubImage3D(GL_TEXTURE_2D_ARRAY, first + (GLint)level, 0, 0, layer,
                             (GLsizei)p->widths[level], (GLsizei)p->heights[level], 1, GL_RGBA,

@@ -23,6 +23,7 @@ static_assert(sizeof(struct kiln_draw_shapes) == FIRST_MESH + 96 * KILN_MAX_MESH
                                                      16 * KILN_SHAPE_FIRSTS +
                                                      112 * KILN_MAX_OBJECTS,
               "std140, and no padding, which the backdrop would compare");
+static_assert(KILN_MAX_MESHES < KILN_PAINT_LAYERS, "each may have paint");
 static_assert(SHAPE_KINDS < 4 * KILN_SHAPE_FIRSTS, "`first` has one number more");
 
 /* Returns the kind of shape that an object is drawn as, or SHAPE_KINDS: it is drawn as a mesh, or
@@ -232,7 +233,7 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
         if (kiln_object_takes_paint(object)) {
             shapes->meshes[mesh].color.w = ++layer;
             for (uint32_t size = object->paint.size; size < largest; size *= 2)
-                shapes->meshes[mesh].color.w += 128.0f;
+                shapes->meshes[mesh].color.w += (float)KILN_PAINT_LAYERS;
         }
         mesh += kiln_object_is_mesh(object);
     }

@@ -19,12 +19,12 @@ layout(binding = KILN_UNIT_MESH_PAINT) uniform sampler2DArray mesh_paint;
 /* Returns the mesh's own colour with its paint over it. */
 vec3 add_paint(int i, uvec4 found, vec3 albedo)
 {
-    int layer_and_level = int(shapes.meshes[i].color.w);
-    int layer = (layer_and_level & 127) - 1;
+    float own_paint = shapes.meshes[i].color.w;
+    int layer = KILN_PAINT_LAYER(own_paint);
     if (layer < 0)
         return albedo;
     float finest = log2(float(textureSize(mesh_paint, 0).x));
-    float level = max(uintBitsToFloat(found.w) + finest, float(layer_and_level >> 7));
+    float level = max(uintBitsToFloat(found.w) + finest, float(KILN_PAINT_LEVEL(own_paint)));
     vec4 paint = textureLod(mesh_paint, vec3(unpackUnorm2x16(found.z), float(layer)), level);
     return albedo * (1.0 - paint.a) + paint.rgb;
 }
