@@ -138,6 +138,14 @@ struct light_cover {
     real leaves;   /* distance to where the way leaves the shape, m; below 0: it is behind */
 };
 
+/* Returns where a shape hides something of a light if its cover is not 0. Elsewhere it is behind
+ * what is lit, or farther away than the light. */
+REAL_FN truth light_is_behind(S(light_way) way, S(light_cover) at)
+{
+    real farthest = way.reach + real_max(way.depth, real_all(1e-4f));
+    return truth_and(at.leaves > -way.lit, at.distance < farthest);
+}
+
 /* Returns the part of a light that a shape hides from a point or a ball. */
 REAL_FN real light_hidden(S(light_way) way, S(light_cover) at)
 {

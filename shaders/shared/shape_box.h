@@ -206,7 +206,7 @@ REAL_FN S(light_cover) box_cover(S(kiln_draw_shape) s, S(box_seen) seen, real3 t
         real_max(real_max(at.near.x - later.x, at.near.y - later.y), at.near.z - later.z);
     found.leaves = real_min(real_min(at.far.x + later.x, at.far.y + later.y), at.far.z + later.z);
     found.cover = real_all(0.0f);
-    near = truth_and(near, found.leaves > -way.lit);
+    near = truth_and(near, light_is_behind(way, found));
     if (!real_some(near))
         return found;
     real of_yz = box_strip_cover(yz, near, way);
