@@ -88,21 +88,21 @@ FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
     place.offset = FLOAT3(0.0f, 0.0f, 0.0f);
     uint shape = STEP(emit.shape);
     bool surface = STEP(emit.surface) != 0u;
-    if (USES(USES_SHAPES, EMIT_SPHERE) && shape == EMIT_SPHERE) {
+    if (USES(USES_EMITTERS, EMIT_SPHERE) && shape == EMIT_SPHERE) {
         EXACT float3 unit = random_in_ball(stream, RANDOM_PLACE, surface);
         place.offset = float3_scale(unit, radius);
         if (STEP(emit.outward) != 0u)
             place.direction = float3_normalize(unit, axis);
-    } else if (USES(USES_SHAPES, EMIT_BOX) && shape == EMIT_BOX) {
+    } else if (USES(USES_EMITTERS, EMIT_BOX) && shape == EMIT_BOX) {
         place.offset = emit_in_box(SIM stream, time_s);
-    } else if (USES(USES_SHAPES, EMIT_DISC) && shape == EMIT_DISC) {
+    } else if (USES(USES_EMITTERS, EMIT_DISC) && shape == EMIT_DISC) {
         place.offset = emit_on_disc(stream, RANDOM_PLACE, axis, radius, surface);
-    } else if (USES(USES_SHAPES, EMIT_CONE) && shape == EMIT_CONE) {
+    } else if (USES(USES_EMITTERS, EMIT_CONE) && shape == EMIT_CONE) {
         /* A nozzle's stream widens by the angle. Place and direction share their random numbers:
          * the farther from the middle a particle starts, the farther from the axis it flies, as if
          * all came from one point behind. */
         place.offset = emit_on_disc(stream, RANDOM_DIRECTION, axis, radius, false);
-    } else if (USES(USES_SHAPES, EMIT_LINE) && shape == EMIT_LINE) {
+    } else if (USES(USES_EMITTERS, EMIT_LINE) && shape == EMIT_LINE) {
         place.offset = emit_on_line(SIM stream, serial, time_s);
     }
     return place;

@@ -39,8 +39,8 @@
 #ifndef USES_FORCES /* of FORCE_* */
 #define USES_FORCES 0xffffffffu
 #endif
-#ifndef USES_SHAPES /* of EMIT_* */
-#define USES_SHAPES 0xffffffffu
+#ifndef USES_EMITTERS /* of EMIT_* */
+#define USES_EMITTERS 0xffffffffu
 #endif
 #ifndef USES_COLLIDERS /* of COLLIDER_* */
 #define USES_COLLIDERS 0xffffffffu

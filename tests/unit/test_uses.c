@@ -122,7 +122,7 @@ static void shapes_of_emitters_are_known(void **state)
         {"systems={a: {emit: {rate: 1}}, b: {emit: {rate: 1, from: {box: {}}}}}",
          BIT(EMIT_POINT) | BIT(EMIT_BOX)},
     };
-    EXPECT("USES_SHAPES", uses);
+    EXPECT("USES_EMITTERS", uses);
 }
 
 #define OBJECT(text) "backdrop.objects=[" text "]"

@@ -8,7 +8,7 @@
 #include "sim/world/colliders.h"
 
 struct uses {
-    uint keys, forces, shapes, collide, births;
+    uint keys, forces, emitters, collide, births;
 };
 
 static uint bit(uint part, bool used)
@@ -84,7 +84,7 @@ static void add_system(struct uses *uses, const struct kiln_scene *scene,
                        const struct kiln_step_params *step, const struct kiln_system *system)
 {
     uses->keys |= keys_of_births(step) | keys_of_impacts(&system->collide);
-    uses->shapes |= 1u << step->emit.shape;
+    uses->emitters |= 1u << step->emit.shape;
     uses->births |= 1u << step->family.born_of;
     if (kiln_sim_colliders_used(scene) != 0)
         uses->collide |= 1u << step->collide;
@@ -104,9 +104,9 @@ void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene
             add_system(&uses, scene, step, &scene->systems[i]);
     }
     kiln_text_add(defines,
-                  "#define USES_KEYS %uu\n#define USES_FORCES %uu\n#define USES_SHAPES %uu\n"
+                  "#define USES_KEYS %uu\n#define USES_FORCES %uu\n#define USES_EMITTERS %uu\n"
                   "#define USES_COLLIDERS %uu\n#define USES_COLLIDE %uu\n"
                   "#define USES_BIRTHS %uu\n#define USES_INTEGRATION %uu\n",
-                  uses.keys, uses.forces, uses.shapes, kiln_sim_colliders_used(scene), uses.collide,
-                  uses.births, (uint)scene->integration);
+                  uses.keys, uses.forces, uses.emitters, kiln_sim_colliders_used(scene),
+                  uses.collide, uses.births, (uint)scene->integration);
 }
