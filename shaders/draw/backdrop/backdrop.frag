@@ -115,8 +115,8 @@ bool share_piece(hit a, vec3 at, hit b, vec3 other)
     return a.surface == b.surface && (a.surface < 0 || bends_little);
 }
 
-/* Notes what a ray hits, and returns whether light must be computed there. At edges, the centre needs
- * it only for samples on the same piece. */
+/* Notes what a ray hits, and returns whether light must be computed there. At edges, the centre
+ * needs it only for samples on the same piece. */
 bool needs_light(int ray, hit h, vec3 point)
 {
     ray_hits[ray] = h;

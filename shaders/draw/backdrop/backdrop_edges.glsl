@@ -51,8 +51,8 @@ bool is_lit_evenly(ivec2 pixel)
 }
 
 /* Returns whether a tile may have pixels at edges: one is marked, or two neighbours in a row or a
- * column of the tile or of the pixels around it differ by half of the threshold, since two such steps
- * lead to a diagonal neighbour. first: the tile's top left pixel. */
+ * column of the tile or of the pixels around it differ by half of the threshold, since two such
+ * steps lead to a diagonal neighbour. first: the tile's top left pixel. */
 bool has_edges(ivec2 first)
 {
     float largest_step = 0.0;

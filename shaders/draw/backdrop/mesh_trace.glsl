@@ -1,8 +1,8 @@
 /* Finds the meshes that the rays of backdrop.frag hit, and how much of the sun and of the sky
  * meshes leave visible from a point. Meshes are rasterised beforehand (meshes.frag): one layer has
  * the hits at the centres of pixels, and each sample has a layer, too. Shadows are read from maps
- * that show each mesh as the sun sees it (meshes_shadow.frag), and all meshes as each lamp sees them
- * (lib/draw/light/lamp_map.c). */
+ * that show each mesh as the sun sees it (meshes_shadow.frag), and all meshes as each lamp sees
+ * them (lib/draw/light/lamp_map.c). */
 #include "draw/backdrop/mesh_hit.glsl"
 #include "shared/lamp_map.h"
 #include "shared/shadow_map.h"
@@ -102,8 +102,8 @@ float mesh_sun_visibility(vec3 point, vec3 normal)
     return visible;
 }
 
-/* Returns the part of lamp i that meshes cover, by fetches as in mesh_sun_cover. way: from the point
- * to the lamp. */
+/* Returns the part of lamp i that meshes cover, by fetches as in mesh_sun_cover. way: from the
+ * point to the lamp. */
 float mesh_lamp_cover(int i, vec3 normal, light_way way)
 {
     float radius = backdrop.lights[i].color.w, far = backdrop.lights[i].maps.x;

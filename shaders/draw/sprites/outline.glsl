@@ -46,8 +46,8 @@ place rows_of(billboard_place p)
     return rows;
 }
 
-/* Filters the edges of a small billboard: writes the rim to the particle, where shade.glsl reads it.
- */
+/* Filters the edges of a small billboard: writes the rim to the particle, where shade.glsl reads
+ * it. */
 billboard_rim find_rim(billboard_place p, bool is_flat)
 {
     billboard_rim rim = billboard_rim_of(p, is_flat, 1.0);

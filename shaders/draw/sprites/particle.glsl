@@ -21,8 +21,8 @@
  * to the picture, else as 0. It defines SUN_SHADE and LAMP_SHADE only for a scene whose backdrop
  * shades particles from the sun, or from lamps (kiln_geometry_defines in
  * lib/draw/sprites/particles_geometry.c). Other scenes get a faster shader without that code. It
- * defines NO_SMOKE for a scene without smoke that throws shadows, and NO_LAMPS for one without lamps
- * and light of fire.
+ * defines NO_SMOKE for a scene without smoke that throws shadows, and NO_LAMPS for one without
+ * lamps and light of fire.
  *
  * tests/support/true_sprite.h is the reference implementation: tests compare every technique with
  * it. */
