@@ -10,7 +10,7 @@
 #include "draw/backdrop/ray_casters.h"
 #include "draw/light/ray_lamp.h"
 #include "draw/light/ray_smoke.h"
-#include "draw/light/shapes_hide_simd.c"
+#include "draw/light/shapes_hide_simd.c" /* NOLINT(bugprone-suspicious-include) */
 #include "support/cmocka.h"
 
 enum {
