@@ -9,6 +9,9 @@ pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 pkg_check_modules(KILN_EGL egl)
 # kiln needs only the headers of assimp, which is loaded when a scene has a mesh (decode/mesh.c).
 pkg_check_modules(KILN_ASSIMP assimp>=5)
+# kiln needs only the headers of the libraries of pictures, which kiln-decode loads for pictures of their kind
+# (decode/jpeg.c, decode/webp.c, decode/tiff.c, decode/profile.c).
+pkg_check_modules(KILN_PICTURES libjpeg libwebp libwebpdemux libtiff-4 lcms2)
 # kiln needs only the headers of libseccomp, which is loaded when a process gives up rights (lib/base/confine.c).
 pkg_check_modules(KILN_SECCOMP libseccomp)
 # kiln needs only the headers of libdeflate, which is loaded when a small PNG is written (lib/output/libdeflate.c).
@@ -24,7 +27,7 @@ pkg_check_modules(KILN_CGLM cglm)
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR
-   NOT KILN_FFMPEG_FOUND OR NOT KILN_SECCOMP_FOUND OR NOT KILN_DEFLATE_FOUND OR
+   NOT KILN_FFMPEG_FOUND OR NOT KILN_PICTURES_FOUND OR NOT KILN_SECCOMP_FOUND OR NOT KILN_DEFLATE_FOUND OR
    NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
     message(FATAL_ERROR "A library is missing; run tools/setup to install all that kiln needs.")
 endif()

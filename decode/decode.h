@@ -5,7 +5,7 @@
 #define KILN_DECODE_H
 
 #include "asset/geometry/mesh_in.h"
-#include "asset/image/image.h"
+#include "asset/image/color.h"
 #include "asset/loader/protocol.h"
 
 /* ---- confinement (confine.c) ----------------------------------------------------------------- */
@@ -30,9 +30,47 @@ struct decode_picture {
      * is "NAME.R" and so on, or "NAME.Y" alone */
     const char *layer;
     uint64_t most_pixels;
+    bool raw;               /* the numbers are data: they are neither turned nor converted */
     uint32_t width, height; /* set when the size is known */
+    bool needs_profile;     /* set: only a process of kind KILN_DECODE_PROFILE can show it */
     struct kiln_error *error;
 };
+
+/* What a file says of its numbers besides their size. */
+struct decode_meaning {
+    const uint8_t *profile; /* an ICC profile, or NULL */
+    size_t profile_size;
+    const struct kiln_color *color; /* of a file without a profile; NULL: sRGB */
+    bool ink;             /* pixels are white less cyan, magenta, yellow and black, of 8 bits */
+    uint32_t orientation; /* 1 to 8, as in Exif: what turns the picture upright; 0: as stored */
+};
+
+/* Makes the picture that is meant of integers. False with the error. */
+bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
+                 const struct decode_meaning *meaning);
+
+/* Returns the orientation in Exif data, which begin like a TIFF file; 1 if they have none. */
+uint32_t decode_exif_orientation(const uint8_t *bytes, size_t size);
+
+/* Turns a picture upright. False: memory is short. */
+bool decode_turn(struct kiln_asset_image *image, uint32_t orientation);
+
+enum decode_profile {
+    DECODE_PROFILE_NONE,   /* it is broken, or not for pictures with these channels: ignore it */
+    DECODE_PROFILE_COLOR,  /* the colour is filled; its tables lie in the profile */
+    DECODE_PROFILE_TABLES, /* only a colour management system can read it */
+};
+
+/* Reads a profile of grey or RGB by its curves and its matrix. channels: 1 or 3 colours. */
+enum decode_profile decode_icc(const uint8_t *profile, size_t size, uint32_t channels,
+                               struct kiln_color *color);
+
+/* Opens lcms2, which converts by profiles with tables, before the process is confined. */
+bool decode_profile_begin(struct kiln_error *error);
+bool decode_profile_is_ready(void);
+
+/* Converts by such a profile. False: it is broken or for other pictures; nothing is changed. */
+bool decode_profile_convert(struct kiln_asset_image *image, const struct decode_meaning *meaning);
 
 /* Checks a picture's size against the limits of image.h and most_pixels (KILN_OVER_LIMIT), and
  * stores it. It is called before memory is taken for pixels. name is that of the format, such as
@@ -42,8 +80,12 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
 
 /* Decode a whole file, or return NULL with the fault. The caller destroys the image. */
 struct kiln_asset_image *decode_png(struct decode_picture *picture);
+struct kiln_asset_image *decode_jpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
+
+/* Open the libraries of pictures, before the process is confined. */
+bool decode_jpeg_begin(struct kiln_error *error);
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 

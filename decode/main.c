@@ -146,6 +146,16 @@ static void send_image(const struct kiln_asset_image *image)
     send_bytes(image->pixels, kiln_asset_image_bytes(image));
 }
 
+static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
+                                            struct decode_picture *picture)
+{
+    if (kind == KILN_DECODE_EXR)
+        return decode_exr(picture);
+    if (kind == KILN_DECODE_PICTURE)
+        return decode_by_ffmpeg(picture);
+    return picture->format == KILN_PICTURE_JPEG ? decode_jpeg(picture) : decode_png(picture);
+}
+
 static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,
                           int file)
 {
@@ -153,17 +163,18 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
     struct decode_picture picture = {.format = (enum kiln_picture_format)request->format,
                                      .layer = request->layer,
                                      .most_pixels = request->most_pixels,
+                                     .raw = request->raw,
                                      .error = &error};
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
     struct kiln_asset_image *image = NULL;
     picture.bytes = bytes;
     if (bytes)
-        image = kind == KILN_DECODE_PNG   ? decode_png(&picture)
-                : kind == KILN_DECODE_EXR ? decode_exr(&picture)
-                                          : decode_by_ffmpeg(&picture);
+        image = decode_file(kind, &picture);
     free(bytes);
     if (image)
         send_image(image);
+    else if (picture.needs_profile)
+        send_text(KILN_DECODE_NEEDS_PROFILE, "");
     else
         send_failure(&error, &picture);
     kiln_asset_image_destroy(&image);
@@ -257,6 +268,10 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
 static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
 {
     switch (kind) {
+    case KILN_DECODE_JPEG:
+        return decode_jpeg_begin(error);
+    case KILN_DECODE_PROFILE:
+        return decode_jpeg_begin(error) && decode_profile_begin(error);
     case KILN_DECODE_PICTURE:
         return kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error);
     case KILN_DECODE_VIDEO:

@@ -16,7 +16,6 @@ struct codec {
 
 static const struct codec codecs[] = {
     [KILN_PICTURE_PNG] = {AV_CODEC_ID_PNG, "PNG"},
-    [KILN_PICTURE_JPEG] = {AV_CODEC_ID_MJPEG, "JPEG"},
     [KILN_PICTURE_WEBP] = {AV_CODEC_ID_WEBP, "WebP"},
     [KILN_PICTURE_TIFF] = {AV_CODEC_ID_TIFF, "TIFF"},
     [KILN_PICTURE_BMP] = {AV_CODEC_ID_BMP, "BMP"},
@@ -118,18 +117,6 @@ static bool open_decoder(struct decoding *decoding)
     return true;
 }
 
-/* Checks that a JPEG file is whole, since the decoder makes up pixels that are missing at the end.
- * The last marker of a scan's start or of the image's end must be the latter: scan data holds
- * neither marker, and an embedded thumbnail comes before the scan. */
-static bool jpeg_ends(const unsigned char *bytes, size_t size)
-{
-    for (size_t i = size; i >= 2; i--) {
-        if (bytes[i - 2] == 0xff && (bytes[i - 1] == 0xd9 || bytes[i - 1] == 0xda))
-            return bytes[i - 1] == 0xd9;
-    }
-    return false;
-}
-
 static bool decode_frame(struct decoding *decoding)
 {
     const unsigned char *bytes = decoding->picture->bytes;
@@ -148,8 +135,7 @@ static bool decode_frame(struct decoding *decoding)
         return fail_memory(decoding);
     /* A decoder that had to guess pixels logs an error and may still give a picture. */
     if (status < 0 || decoding->frame->decode_error_flags || decoding->avlog.first_error[0] ||
-        (decoding->frame->flags & AV_FRAME_FLAG_CORRUPT) ||
-        (decoding->decoder->codec_id == AV_CODEC_ID_MJPEG && !jpeg_ends(bytes, size))) {
+        (decoding->frame->flags & AV_FRAME_FLAG_CORRUPT)) {
         char what[64];
         snprintf(what, sizeof what, "the %s image is broken or cut short", decoding->codec->name);
         return fail(decoding, KILN_INVALID_INPUT, what);

@@ -42,7 +42,7 @@ static bool is_black(const struct kiln_asset_image *image, size_t pixel)
 
 static bool add_picture(struct kiln_mask *mask, const char *path, struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load_data(NULL, path, error);
     if (!image) {
         if (error->code == KILN_IO)
             error->code = KILN_INVALID_INPUT;

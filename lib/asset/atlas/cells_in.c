@@ -273,7 +273,8 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
     float *cells = calloc(pixels, 4 * sizeof *cells);
     if (!cells)
         return kiln_error_no_memory(error, "the cells of %s", source->path);
-    struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
+    struct kiln_asset_image *image =
+        kiln_asset_image_load_data(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, true, cells, threads, error);
     kiln_asset_image_destroy(&image);
     for (size_t i = 0; ok && i < pixels; i++)

@@ -62,7 +62,8 @@ static struct pixel_place find_pixels(uint32_t point, uint32_t points, uint32_t 
 static bool read_image(struct kiln_terrain *terrain, const struct kiln_terrain_params *params,
                        struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(params->loader, params->image, error);
+    struct kiln_asset_image *image =
+        kiln_asset_image_load_data(params->loader, params->image, error);
     if (!image)
         return false;
     for (uint32_t z = 0; z < terrain->samples[1]; z++) {

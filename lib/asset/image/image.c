@@ -20,15 +20,16 @@ static const struct signature {
     const char *bytes;
     size_t length;
     enum kiln_picture_format format;
+    enum kiln_decode_kind kind; /* of the process that decodes it */
     const char *name;
 } signatures[] = {
-    {"\x89PNG\r\n\x1a\n", 8, KILN_PICTURE_PNG, "PNG"},
-    {"\xff\xd8\xff", 3, KILN_PICTURE_JPEG, "JPEG"},
-    {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, "WebP"},
-    {"II*\0", 4, KILN_PICTURE_TIFF, "TIFF"},
-    {"MM\0*", 4, KILN_PICTURE_TIFF, "TIFF"},
-    {"BM", 2, KILN_PICTURE_BMP, "BMP"},
-    {"v/1\x01", 4, KILN_PICTURE_EXR, "EXR"},
+    {"\x89PNG\r\n\x1a\n", 8, KILN_PICTURE_PNG, KILN_DECODE_PNG, "PNG"},
+    {"\xff\xd8\xff", 3, KILN_PICTURE_JPEG, KILN_DECODE_JPEG, "JPEG"},
+    {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_PICTURE, "WebP"},
+    {"II*\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_PICTURE, "TIFF"},
+    {"MM\0*", 4, KILN_PICTURE_TIFF, KILN_DECODE_PICTURE, "TIFF"},
+    {"BM", 2, KILN_PICTURE_BMP, KILN_DECODE_PICTURE, "BMP"},
+    {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_PICTURE, "EXR"},
 };
 
 /* ---- format ---------------------------------------------------------------------------------- */
@@ -91,7 +92,7 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
     if (!signature)
         return refuse_unknown(head, name, error);
     request->format = signature->format;
-    *kind = signature->format == KILN_PICTURE_PNG ? KILN_DECODE_PNG : KILN_DECODE_PICTURE;
+    *kind = signature->kind;
     if (signature->format == KILN_PICTURE_WEBP && is_animated_webp(head))
         return kiln_error_set(
             error, KILN_INVALID_INPUT,
@@ -110,13 +111,42 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 
 /* ---- decoding -------------------------------------------------------------------------------- */
 
-/* Decodes the picture in an open file. name: the file's name, for messages. A picture must have
- * finite values; a layer need not. */
-static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
-                                       const char *layer, struct kiln_error *error)
+/* What a caller wants of a file. */
+struct wanted {
+    const char *layer; /* NULL: the picture, whose values are finite */
+    bool raw;          /* the numbers are data, not colours */
+};
+
+/* Lets a process of a kind decode an open file. *needs_profile is set if only one of kind
+ * KILN_DECODE_PROFILE can. */
+static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_decode_kind kind,
+                                    const struct kiln_decode_request *request, int file,
+                                    bool *needs_profile, struct kiln_error *error)
 {
-    struct kiln_decode_request request = {.most_bytes = KILN_MAX_IMAGE_BYTES};
-    struct kiln_received received = {.loader = loader, .name = name, .finite = !layer};
+    received->helper = kiln_loader_take(received->loader, kind, error);
+    if (!received->helper)
+        return NULL;
+    /* A process that has opened lcms2 needs no other one, unless a file has taken it over. */
+    const unsigned other = kind == KILN_DECODE_PROFILE ? 0 : 1u << KILN_DECODE_NEEDS_PROFILE;
+    const unsigned expected = 1u << KILN_DECODE_PIXELS | other;
+    struct kiln_error reason = {0};
+    struct kiln_asset_image *image = NULL;
+    received->needs_profile = false;
+    if (kiln_helper_send(received->helper, request, sizeof *request, file, &reason))
+        image = kiln_received_image(received, expected, &reason);
+    *needs_profile = received->needs_profile;
+    if (!image && !*needs_profile)
+        kiln_received_fail(received, &reason, error);
+    kiln_loader_give_back(received->loader, &received->helper);
+    return image;
+}
+
+/* Decodes the picture in an open file. name: the file's name, for messages. */
+static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
+                                       const struct wanted *wanted, struct kiln_error *error)
+{
+    struct kiln_decode_request request = {.most_bytes = KILN_MAX_IMAGE_BYTES, .raw = wanted->raw};
+    struct kiln_received received = {.loader = loader, .name = name, .finite = !wanted->layer};
     struct head head;
     const ssize_t got = pread(file, head.bytes, sizeof head.bytes, 0);
     enum kiln_decode_kind kind = KILN_DECODE_PICTURE;
@@ -125,35 +155,29 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
         return NULL;
     }
     head.size = (size_t)got;
-    if (!choose_kind(&head, name, layer, &kind, &request, error))
+    if (!choose_kind(&head, name, wanted->layer, &kind, &request, error))
         return NULL;
     request.most_pixels = kiln_received_most_pixels(loader);
-    received.helper = kiln_loader_take(loader, kind, error);
-    if (!received.helper)
-        return NULL;
-    struct kiln_error reason = {0};
-    struct kiln_asset_image *image =
-        kiln_helper_send(received.helper, &request, sizeof request, file, &reason)
-            ? kiln_received_image(&received, 1u << KILN_DECODE_PIXELS, &reason)
-            : NULL;
-    if (!image)
-        kiln_received_fail(&received, &reason, error);
-    kiln_loader_give_back(loader, &received.helper);
+    bool needs_profile = false;
+    struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_profile, error);
+    if (needs_profile)
+        image = ask(&received, KILN_DECODE_PROFILE, &request, file, &needs_profile, error);
     return image;
 }
 
 static struct kiln_asset_image *load(struct kiln_loader *loader, const char *path,
-                                     const char *layer, struct kiln_error *error)
+                                     const struct wanted *what, struct kiln_error *error)
 {
     const struct kiln_loader_file wanted = {path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES};
     size_t size = 0;
     const int file = kiln_loader_open(loader, &wanted, &size, error);
     if (file < 0)
         return NULL;
-    struct kiln_asset_image *image = decode(loader, file, path, layer, error);
+    struct kiln_asset_image *image = decode(loader, file, path, what, error);
     close(file);
     uint32_t known[2];
-    if (image && kiln_loader_knows_size(loader, path, known) &&
+    /* Data are not turned, so their width may be the height that is known of the picture. */
+    if (image && !what->raw && kiln_loader_knows_size(loader, path, known) &&
         (image->width != known[0] || image->height != known[1])) {
         kiln_error_set(error, KILN_INVALID_INPUT,
                        "%s: the image changed while it was read: it has %u x %u pixels, and had %u "
@@ -167,13 +191,19 @@ static struct kiln_asset_image *load(struct kiln_loader *loader, const char *pat
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error)
 {
-    return load(loader, path, NULL, error);
+    return load(loader, path, &(struct wanted){NULL, false}, error);
+}
+
+struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, const char *path,
+                                                    struct kiln_error *error)
+{
+    return load(loader, path, &(struct wanted){NULL, true}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
                                                      const char *layer, struct kiln_error *error)
 {
-    return load(loader, path, layer, error);
+    return load(loader, path, &(struct wanted){layer, false}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
@@ -182,7 +212,7 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
     struct kiln_asset_image *image = NULL;
     const int file = kiln_loader_file_of(bytes, size, name, error);
     if (file >= 0 && kiln_file_check_size(name, "image", size, KILN_MAX_IMAGE_BYTES, error))
-        image = decode(NULL, file, name, NULL, error);
+        image = decode(NULL, file, name, &(struct wanted){NULL, false}, error);
     if (file >= 0)
         close(file);
     return image;

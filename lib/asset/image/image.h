@@ -18,7 +18,8 @@ enum kiln_image_type {
     KILN_IMAGE_F32, /* float */
 };
 
-/* Holds RGBA pixels, rows from the top, tightly packed. Sources without alpha get the full
+/* Holds RGBA pixels of the picture as it is shown: upright, and of sRGB's primaries
+ * (docs/pictures.md); rows from the top, tightly packed. Sources without alpha get the full
  * value. */
 struct kiln_asset_image {
     uint32_t width, height;
@@ -45,6 +46,11 @@ static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image
  * the loader's budget; KILN_DEVICE_FAILED when memory is short or the decoder is not installed. */
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error);
+
+/* The same for numbers that are not colours, such as heights or motion: they are neither converted
+ * nor turned. */
+struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, const char *path,
+                                                    struct kiln_error *error);
 
 /* Decodes one layer of a file. EXR files have several layers, of which "beauty" is the picture;
  * other formats have only "beauty". KILN_INVALID_INPUT also when there is no such layer. Floats are

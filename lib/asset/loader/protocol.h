@@ -11,7 +11,9 @@
  * process opens only the libraries that its kind needs. */
 #define KILN_DECODE_KINDS(X)                                                                       \
     X(PNG, "png")                                                                                  \
-    X(PICTURE, "picture") /* JPEG, WebP, TIFF, BMP and EXR, by FFmpeg */                           \
+    X(JPEG, "jpeg")       /* by libjpeg-turbo */                                                   \
+    X(PROFILE, "profile") /* any of PNG and JPEG whose colour profile has tables, with lcms2 */    \
+    X(PICTURE, "picture") /* WebP, TIFF, BMP and EXR, by FFmpeg */                                 \
     X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
@@ -46,6 +48,7 @@ struct kiln_decode_request {
     uint32_t format;      /* enum kiln_picture_format or kiln_mesh_format; unused for a video */
     uint32_t uvs;         /* of a mesh: texture coordinates are wanted */
     uint32_t moving;      /* of a mesh: nodes, bones and clips are wanted */
+    uint32_t raw;         /* of a picture: numbers are neither converted nor turned */
     uint64_t most_bytes;  /* size limit of the file in bytes */
     uint64_t most_pixels; /* limit of a picture's width * height */
     char layer[64];       /* name of a layer of an EXR file */
@@ -71,6 +74,9 @@ enum kiln_decode_what {
 
     /* Describes a mesh. Its arrays follow, as kiln_mesh_visit_arrays lists them. */
     KILN_DECODE_MESH_MADE,
+
+    /* Only a process of kind KILN_DECODE_PROFILE can decode the picture. */
+    KILN_DECODE_NEEDS_PROFILE,
 };
 
 struct kiln_decode_answer {

@@ -1,0 +1,49 @@
+/* Declares how a file says what its numbers mean as colours, and the conversion of pixels to
+ * sRGB. All arithmetic is the same on every processor. */
+#ifndef KILN_ASSET_IMAGE_COLOR_H
+#define KILN_ASSET_IMAGE_COLOR_H
+
+#include "asset/image/image.h"
+
+/* Gives the light of a number of the file; both are 0 to 1. Without a table it is
+ * (a x + b)^gamma + e for x >= d, and c x + f below (ICC.1:2022, 10.18). */
+struct kiln_curve {
+    float gamma, a, b, c, d, e, f;
+    const uint8_t *table; /* numbers of 16 bits, the high byte first; it outlives the curve */
+    uint32_t count;       /* of the table, at least 2 */
+};
+
+struct kiln_color {
+    struct kiln_curve curves[3];
+    double to_srgb[3][3]; /* turns light of the file's primaries into light of sRGB's */
+};
+
+/* Places of the primaries and of white in the chromaticity diagram of CIE 1931. */
+struct kiln_primaries {
+    double red[2], green[2], blue[2], white[2];
+};
+
+extern const struct kiln_primaries kiln_rec709;
+
+struct kiln_curve kiln_power_curve(float gamma);
+struct kiln_curve kiln_srgb_curve(void);
+
+/* Returns the light of a number, 0 to 1. */
+float kiln_curve_at(const struct kiln_curve *curve, float x);
+
+/* Finds the light of sRGB's primaries by that of others, adapting white by Bradford's matrix.
+ * False: the primaries are no triangle around white. */
+bool kiln_primaries_to_srgb(const struct kiln_primaries *primaries, double to_srgb[3][3]);
+
+/* The same from the columns of a profile: XYZ of red, green and blue for the white D50. */
+bool kiln_columns_to_srgb(const double xyz[3][3], double to_srgb[3][3]);
+
+/* Returns whether a colour converts no number of 8 bits by more than one level: then the file
+ * means sRGB. */
+bool kiln_color_is_srgb(const struct kiln_color *color);
+
+/* Converts pixels of integers to sRGB of the same depth. Light outside of sRGB is clipped. Grey
+ * stays grey: only the first curve counts. Alpha is not changed. */
+bool kiln_color_convert(const struct kiln_color *color, struct kiln_asset_image *image);
+
+#endif
