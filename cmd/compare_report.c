@@ -119,6 +119,8 @@ static void print_result_text(const struct compare_report *report,
         print_metrics(result);
     if (!result->sequence && report->only.measured)
         print_places(&report->only);
+    if (!result->sequence && *report->note)
+        printf("  %s\n", report->note);
     if (report->stats)
         printf("  FLIP in %.3f s\n  all in %.3f s\n", result->flip_s, result->total_s);
 }
@@ -217,6 +219,7 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
 {
     report->only = *frame;
     report->only.name = report->only.message = ""; /* they may be freed after this call */
+    snprintf(report->note, sizeof report->note, "%s", frame->measured ? frame->message : "");
     if (report->json)
         print_frame_json(result, frame);
     if (report->quiet)

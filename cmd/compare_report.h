@@ -11,6 +11,7 @@ struct compare_report {
     bool quiet;
     bool stats;                     /* print times, too */
     struct kiln_compare_frame only; /* the last frame; printed for a pair of single pictures */
+    char note[160];                 /* its message, if it was measured */
 };
 
 /* Prints the result of a frame; called after each compared frame. */

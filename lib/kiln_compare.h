@@ -44,7 +44,8 @@ struct kiln_compare_frame {
     size_t size;
     const char *name; /* of the file, or the frame's number */
     enum kiln_compare_verdict verdict;
-    const char *message; /* why the frame was not measured; "" when it was */
+    const char
+        *message; /* why the frame was not measured, or how the kinds of files differ; or "" */
     bool measured;
     bool equal;                      /* no sample differs */
     uint32_t width, height;          /* pixels */

@@ -97,6 +97,7 @@ static bool compare_pictures(struct comparison *comparison,
               kiln_metric_set_judge(&comparison->set, &measurement, frame, error);
     if (ok) {
         frame->measured = true;
+        frame->message = kiln_compare_alpha_note(pictures[0], pictures[1]);
         note_places(&measurement, frame);
     } else if (error->code == KILN_FRAME_FAILED) {
         frame->verdict = KILN_COMPARE_DIFFERENT;
@@ -158,6 +159,8 @@ static bool make_pictures(struct comparison *comparison, const char *frame,
         if (!pictures[i])
             return false;
     }
+    if (!kiln_compare_pictures_agree(pictures, error))
+        return false;
     if (mask)
         kiln_mask_apply(mask, pictures[0], pictures[1]);
     return true;

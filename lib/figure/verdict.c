@@ -88,7 +88,7 @@ static bool load_both(const struct kiln_fresh_figure *fresh,
     kiln_asset_image_destroy(&images[0]);
     kiln_asset_image_destroy(&images[1]);
     free(bytes);
-    return pictures[0] && pictures[1];
+    return pictures[0] && pictures[1] && kiln_compare_pictures_agree(pictures, error);
 }
 
 static void say_worst(const struct kiln_metric_set *set, const struct kiln_compare_frame *frame,

@@ -101,10 +101,26 @@ $ kiln compare grey.png tall.png
 1|the sizes differ: the reference has 64 x 48 pixels, the test 48 x 64
 1|tall.png against grey.png: different
 = 1
+
+Alpha that is opaque everywhere is none.
+
 $ kiln compare grey.png clear.png
-1|the channels differ: the reference has RGB, the test RGBA
-1|clear.png against grey.png: different
-= 1
+1|clear.png against grey.png: same
+1|  metric                  value      limit
+1|  flip.mean                   0       0.01  within
+1|  flip.p50                    0          -
+1|  flip.p99                    0        0.1  within
+1|  flip.max                    0          -
+1|  ssim                        1          -
+1|  psnr                      inf          -
+1|  abs.max                     0          -
+1|  abs.mean                    0          -
+1|  differing.count             0          -
+1|  differing.share             0          -
+1|  window.share                0        0.1  within
+1|  not one value differs
+1|  the test has alpha, which is opaque everywhere; the reference has none
+
 $ kiln compare grey.png nowhere.png
 2|nowhere.png: No such file or directory
 = 3
