@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "decode.h"
+
 struct conversion {
     const AVFrame *frame;
     struct kiln_asset_image *image;
@@ -83,21 +85,6 @@ static enum kiln_code convert_integer(struct conversion *conversion)
                           : fail(conversion, KILN_INVALID_INPUT, "the image cannot be converted");
 }
 
-/* Returns the channels of a frame. Only the pixels tell whether a palette has alpha. */
-static uint32_t count_channels(const AVPixFmtDescriptor *layout,
-                               const struct kiln_asset_image *image)
-{
-    if (!(layout->flags & AV_PIX_FMT_FLAG_PAL))
-        return layout->nb_components;
-    const uint8_t *pixel = image->pixels;
-    size_t pixels = (size_t)image->width * image->height;
-    for (size_t i = 0; i < pixels; i++) {
-        if (pixel[4 * i + 3] != 255)
-            return 4;
-    }
-    return 3;
-}
-
 static enum kiln_code convert(struct conversion *conversion)
 {
     const AVFrame *frame = conversion->frame;
@@ -121,8 +108,9 @@ static enum kiln_code convert(struct conversion *conversion)
     if (!image->pixels)
         return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
     enum kiln_code code = is_float ? interleave_float(conversion) : convert_integer(conversion);
-    if (code == KILN_OK)
-        image->channels = count_channels(layout, image);
+    image->channels = layout->nb_components;
+    if (code == KILN_OK && (layout->flags & AV_PIX_FMT_FLAG_PAL))
+        decode_find_alpha(image);
     return code;
 }
 

@@ -49,6 +49,9 @@ struct decode_meaning {
 bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
                  const struct decode_meaning *meaning);
 
+/* Sets the channels of a picture of 8 bits by its pixels: 4 if one is not opaque, else 3. */
+void decode_find_alpha(struct kiln_asset_image *image);
+
 /* Returns the orientation in Exif data, which begin like a TIFF file; 1 if they have none. */
 uint32_t decode_exif_orientation(const uint8_t *bytes, size_t size);
 
@@ -81,11 +84,17 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
 /* Decode a whole file, or return NULL with the fault. The caller destroys the image. */
 struct kiln_asset_image *decode_png(struct decode_picture *picture);
 struct kiln_asset_image *decode_jpeg(struct decode_picture *picture);
+struct kiln_asset_image *decode_webp(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
 
+/* Decodes all frames of a WebP. `take` owns each image; it returns false if it wants no more. */
+bool decode_webp_frames(struct decode_picture *picture,
+                        bool (*take)(void *user, struct kiln_asset_image *image), void *user);
+
 /* Open the libraries of pictures, before the process is confined. */
 bool decode_jpeg_begin(struct kiln_error *error);
+bool decode_webp_begin(struct kiln_error *error);
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 

@@ -153,7 +153,33 @@ static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
         return decode_exr(picture);
     if (kind == KILN_DECODE_PICTURE)
         return decode_by_ffmpeg(picture);
-    return picture->format == KILN_PICTURE_JPEG ? decode_jpeg(picture) : decode_png(picture);
+    switch (picture->format) {
+    case KILN_PICTURE_JPEG:
+        return decode_jpeg(picture);
+    case KILN_PICTURE_WEBP:
+        return decode_webp(picture);
+    default:
+        return decode_png(picture);
+    }
+}
+
+/* Sends a frame of an animation, and waits for no answer: the socket holds this process back. */
+static bool send_frame(void *user, struct kiln_asset_image *image)
+{
+    (void)user;
+    send_image(image);
+    kiln_asset_image_destroy(&image);
+    return true;
+}
+
+/* Sends the frames of an animation as those of a video are sent. */
+static void serve_frames(struct decode_picture *picture)
+{
+    send_text(KILN_DECODE_READY, KILN_VERSION);
+    if (decode_webp_frames(picture, send_frame, NULL))
+        send_text(KILN_DECODE_END, "");
+    else
+        send_failure(picture->error, picture);
 }
 
 static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,
@@ -168,6 +194,11 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
     struct kiln_asset_image *image = NULL;
     picture.bytes = bytes;
+    if (bytes && request->frames && kind == KILN_DECODE_WEBP) {
+        serve_frames(&picture);
+        free(bytes);
+        return;
+    }
     if (bytes)
         image = decode_file(kind, &picture);
     free(bytes);
@@ -271,7 +302,9 @@ static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
     case KILN_DECODE_JPEG:
         return decode_jpeg_begin(error);
     case KILN_DECODE_PROFILE:
-        return decode_jpeg_begin(error) && decode_profile_begin(error);
+        return decode_jpeg_begin(error) && decode_webp_begin(error) && decode_profile_begin(error);
+    case KILN_DECODE_WEBP:
+        return decode_webp_begin(error);
     case KILN_DECODE_PICTURE:
         return kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error);
     case KILN_DECODE_VIDEO:

@@ -15,10 +15,8 @@ struct codec {
 };
 
 static const struct codec codecs[] = {
-    [KILN_PICTURE_PNG] = {AV_CODEC_ID_PNG, "PNG"},
-    [KILN_PICTURE_WEBP] = {AV_CODEC_ID_WEBP, "WebP"},
-    [KILN_PICTURE_TIFF] = {AV_CODEC_ID_TIFF, "TIFF"},
-    [KILN_PICTURE_BMP] = {AV_CODEC_ID_BMP, "BMP"},
+    [KILN_PICTURE_PNG] = {AV_CODEC_ID_PNG, "PNG"}, [KILN_PICTURE_TIFF] = {AV_CODEC_ID_TIFF, "TIFF"},
+    [KILN_PICTURE_BMP] = {AV_CODEC_ID_BMP, "BMP"}, [KILN_PICTURE_GIF] = {AV_CODEC_ID_GIF, "GIF"},
     [KILN_PICTURE_EXR] = {AV_CODEC_ID_EXR, "EXR"},
 };
 
@@ -148,6 +146,8 @@ static struct kiln_asset_image *convert_frame(struct decoding *decoding)
     struct kiln_asset_image *image = NULL;
     const char *problem = NULL;
     const enum kiln_code code = decode_avframe(decoding->frame, &image, &problem);
+    if (code == KILN_OK && decoding->codec->id == AV_CODEC_ID_GIF)
+        decode_find_alpha(image); /* FFmpeg gives every GIF an alpha */
     if (code == KILN_DEVICE_FAILED)
         fail_memory(decoding);
     else if (code != KILN_OK)

@@ -140,18 +140,6 @@ static void read_rows(struct reading *reading)
     png_read_end(reading->png, reading->end);
 }
 
-/* Sets the channels of a picture with a palette. Only the pixels tell whether a palette has alpha.
- */
-static void look_for_alpha(const struct reading *reading)
-{
-    struct kiln_asset_image *image = reading->image;
-    const uint8_t *pixel = image->pixels;
-    const size_t pixels = (size_t)image->width * image->height;
-    image->channels = 3;
-    for (size_t i = 0; i < pixels && image->channels == 3; i++)
-        image->channels = pixel[4 * i + 3] != 255 ? 4 : 3;
-}
-
 /* Reads the picture. All of libpng's errors longjmp to this function, so its locals must not change
  * after setjmp. */
 static bool read_file(struct reading *reading)
@@ -310,7 +298,7 @@ struct kiln_asset_image *decode_png(struct decode_picture *picture)
     bool ok = open_file(&reading);
     ok = ok ? read_file(&reading) : decode_out_of_memory(picture->error);
     if (ok && png_get_color_type(reading.png, reading.info) == PNG_COLOR_TYPE_PALETTE)
-        look_for_alpha(&reading);
+        decode_find_alpha(reading.image); /* only the pixels tell whether a palette has alpha */
     ok = ok && show(&reading);
     png_destroy_read_struct(&reading.png, &reading.info, &reading.end);
     if (!ok)

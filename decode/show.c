@@ -3,6 +3,15 @@
 #include "base/error.h"
 #include "decode.h"
 
+void decode_find_alpha(struct kiln_asset_image *image)
+{
+    const uint8_t *pixel = image->pixels;
+    const size_t pixels = (size_t)image->width * image->height;
+    image->channels = 3;
+    for (size_t i = 0; i < pixels && image->channels == 3; i++)
+        image->channels = pixel[4 * i + 3] != 255 ? 4 : 3;
+}
+
 /* Shows ink as Pillow does where there is no profile: white less the ink of each colour, times
  * white less black. Each number is white less ink. */
 static void show_ink(struct kiln_asset_image *image)
@@ -66,7 +75,8 @@ bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
     if (meaning->ink)
         make_opaque(image);
     if (picture->needs_profile)
-        return kiln_error_set(picture->error, KILN_INVALID_INPUT, "the profile has tables");
+        return kiln_error_set(picture->error, KILN_INVALID_INPUT,
+                              "a colour profile with tables cannot be applied to an animation");
     return (shown != FAILED && (picture->raw || decode_turn(image, meaning->orientation))) ||
            decode_out_of_memory(picture->error);
 }

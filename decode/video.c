@@ -10,7 +10,7 @@
 #include "base/ffmpeg.h"
 #include "decode.h"
 
-#define ALLOWED "MP4, MOV, Matroska, WebM, AVI, GIF or APNG"
+#define ALLOWED "MP4, MOV, Matroska, WebM, AVI, GIF, APNG or animated WebP"
 
 enum { IO_BUFFER_SIZE = 1 << 16, MAX_STREAMS = 32, PROBE_BYTES = 5000000 };
 
@@ -298,19 +298,6 @@ static bool feed(struct decode_video *video)
     return status >= 0 || fail_status(video, status, "the video has a broken frame");
 }
 
-/* Returns the channels of a GIF's frame. FFmpeg gives every GIF an alpha, so only the pixels tell
- * whether it has one. */
-static uint32_t count_gif_channels(const struct kiln_asset_image *image)
-{
-    const uint8_t *pixels = image->pixels;
-    size_t count = (size_t)image->width * image->height;
-    for (size_t i = 0; i < count; i++) {
-        if (pixels[4 * i + 3] != 255)
-            return 4;
-    }
-    return 3;
-}
-
 static bool receive(struct decode_video *video, struct kiln_asset_image **image)
 {
     int status = kiln_ff.avcodec_receive_frame(video->decoder, video->frame);
@@ -329,7 +316,7 @@ static bool receive(struct decode_video *video, struct kiln_asset_image **image)
     const char *problem = NULL;
     enum kiln_code code = decode_avframe(video->frame, image, &problem);
     if (code == KILN_OK && video->decoder->codec_id == AV_CODEC_ID_GIF)
-        (*image)->channels = count_gif_channels(*image);
+        decode_find_alpha(*image); /* FFmpeg gives every GIF an alpha */
     if (code == KILN_DEVICE_FAILED)
         return fail_memory(video);
     return code == KILN_OK || fail(video, code, problem);

@@ -5,11 +5,14 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "asset/image/animated.h"
 #include "asset/image/video_in.h"
 #include "base/arena.h"
 #include "base/error.h"
@@ -63,8 +66,8 @@ static bool add_entry(struct kiln_footage *footage, const char *name, uint32_t n
 
 static bool is_picture(const char *name)
 {
-    static const char *const suffixes[] = {".png", ".jpg",  ".jpeg", ".webp",
-                                           ".tif", ".tiff", ".bmp",  ".exr"};
+    static const char *const suffixes[] = {".png",  ".jpg", ".jpeg", ".webp", ".tif",
+                                           ".tiff", ".bmp", ".gif",  ".exr"};
     const char *dot = strrchr(name, '.');
     for (size_t i = 0; dot && dot > name && i < sizeof suffixes / sizeof *suffixes; i++) {
         if (name[0] != '.' && strcasecmp(dot, suffixes[i]) == 0)
@@ -125,8 +128,8 @@ static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pa
     if (footage->count == 0)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", footage->path,
                               pattern ? "no file fits the pattern"
-                                      : "the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP "
-                                        "or EXR, by their suffix)");
+                                      : "the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP, "
+                                        "GIF or EXR, by their suffix)");
     qsort(footage->entries, footage->count, sizeof *footage->entries, compare_entries);
     for (size_t i = 0; i < footage->count && !pattern; i++)
         footage->entries[i].number = (uint32_t)i;
@@ -170,6 +173,18 @@ static bool open_numbered(struct kiln_footage *footage, const struct kiln_path_p
                            : no_memory(footage->path, error);
 }
 
+/* Returns whether a file is to be read frame by frame: WebP, PNG and GIF by their content, others
+ * by their names. */
+static bool is_video(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool animated = file >= 0 && kiln_file_is_animated(file);
+    if (file >= 0)
+        close(file);
+    return animated || (kiln_video_in_has_suffix(path) && (!dot || strcasecmp(dot, ".gif") != 0));
+}
+
 static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
 {
     struct stat status;
@@ -177,7 +192,7 @@ static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
     int failure = errno;
     if (exists && S_ISDIR(status.st_mode))
         return open_folder(footage, error);
-    if (exists && kiln_video_in_has_suffix(footage->path)) {
+    if (exists && is_video(footage->path)) {
         footage->kind = KILN_FOOTAGE_VIDEO;
         footage->video = kiln_video_in_open(footage->loader, footage->path, error);
         return footage->video != NULL;

@@ -1,7 +1,7 @@
-/* Fuzzes the decoding of pictures by FFmpeg and libjpeg-turbo: for any input the decoder must
- * return an image within the size limits or an error, and never crash. If this fails, a malicious
- * picture may take over kiln-decode, the separate process that decodes untrusted files. The first
- * two bytes of an input choose the file format. */
+/* Fuzzes the decoding of pictures by FFmpeg, libjpeg-turbo and libwebp: for any input the decoder
+ * must return an image within the size limits or an error, and never crash. If this fails, a
+ * malicious picture may take over kiln-decode, the separate process that decodes untrusted files.
+ * The first two bytes of an input choose the file format. */
 #include <string.h>
 
 #include "base/ffmpeg.h"
@@ -17,21 +17,34 @@ static enum kiln_picture_format format_of(const uint8_t *data, size_t size)
         return KILN_PICTURE_TIFF;
     if (size >= 2 && memcmp(data, "RI", 2) == 0)
         return KILN_PICTURE_WEBP;
+    if (size >= 2 && memcmp(data, "GI", 2) == 0)
+        return KILN_PICTURE_GIF;
     return size >= 2 && memcmp(data, "v/", 2) == 0 ? KILN_PICTURE_EXR : KILN_PICTURE_JPEG;
+}
+
+static struct kiln_asset_image *decode(struct decode_picture *picture)
+{
+    switch (picture->format) {
+    case KILN_PICTURE_JPEG:
+        return decode_jpeg(picture);
+    case KILN_PICTURE_WEBP:
+        return decode_webp(picture);
+    default:
+        return decode_by_ffmpeg(picture);
+    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct kiln_error error = {0};
     require(kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, &error), "FFmpeg is missing");
-    require(decode_jpeg_begin(&error) && decode_profile_begin(&error), "a library is missing");
+    require(decode_jpeg_begin(&error) && decode_webp_begin(&error) && decode_profile_begin(&error),
+            "a library is missing");
     struct decode_picture picture = {.bytes = data,
                                      .size = size,
                                      .format = format_of(data, size),
                                      .most_pixels = KILN_MAX_IMAGE_PIXELS,
                                      .error = &error};
-    fuzz_taken = check_image(picture.format == KILN_PICTURE_JPEG ? decode_jpeg(&picture)
-                                                                 : decode_by_ffmpeg(&picture),
-                             &error);
+    fuzz_taken = check_image(decode(&picture), &error);
     return 0;
 }

@@ -219,10 +219,11 @@ static void update_failed_replaces_broken_goldens(void **state)
     struct file_state first = file_state(SPARK_GOLDEN), second = file_state(SECOND_GOLDEN);
     struct spark_run run = run_update(KILN_UPDATE_MISSING, false);
     assert_int_equal(run.summary.status, KILN_TEST_ERROR);
-    expect_message(run.summary.message,
-                   "frame 3: golden/spark/frame_0003.png: the file is not an image: it starts with "
-                   "the bytes 6e 6f 20 70; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files; "
-                   "--update failed replaces it");
+    expect_message(
+        run.summary.message,
+        "frame 3: golden/spark/frame_0003.png: the file is not an image: it starts with "
+        "the bytes 6e 6f 20 70; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files; "
+        "--update failed replaces it");
     spark_end(&run);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
     run = run_update(KILN_UPDATE_FAILED, true);

@@ -19,17 +19,22 @@ struct clip {
     char folder[32], path[64];
 };
 
-static struct clip make_clip(void)
+static struct clip make_clip_named(const char *name)
 {
     struct clip clip;
     test_make_folder(clip.folder);
-    snprintf(clip.path, sizeof clip.path, "%s/x.mp4", clip.folder);
+    snprintf(clip.path, sizeof clip.path, "%s/%s", clip.folder, name);
     const struct kiln_frame_range range = {0, FRAMES - 1};
     struct kiln_output_params params = test_output_params(clip.path, &range);
     params.quality = 95;
     struct kiln_error error = {0};
     assert_true(test_write_all(&params, &error));
     return clip;
+}
+
+static struct clip make_clip(void)
+{
+    return make_clip_named("x.mp4");
 }
 
 /* The frames that can be read; -1 when that ends with an error. */
@@ -47,10 +52,9 @@ static int count_frames(const char *path, struct kiln_error *error)
     return good ? frames : -1;
 }
 
-static void frames_and_colours_come_back(void **state)
+static void come_back(const char *name)
 {
-    (void)state;
-    struct clip clip = make_clip();
+    struct clip clip = make_clip_named(name);
     struct kiln_error error = {0};
     struct kiln_video_in *video = kiln_video_in_open(NULL, clip.path, &error);
     assert_non_null(video);
@@ -75,6 +79,14 @@ static void frames_and_colours_come_back(void **state)
     assert_null(none);
     kiln_video_in_close(&video);
     test_remove_folder(clip.folder);
+}
+
+static void frames_and_colours_come_back(void **state)
+{
+    (void)state;
+    come_back("x.mp4");
+    come_back("x.apng");
+    come_back("x.webp");
 }
 
 static void write_bytes(const char *path, const unsigned char *bytes, size_t size)
@@ -105,7 +117,7 @@ static size_t find_ends(const char *path, size_t *start, size_t ends[FRAMES])
     return count;
 }
 
-#define ALLOWED "allowed are MP4, MOV, Matroska, WebM, AVI, GIF or APNG files"
+#define ALLOWED "allowed are MP4, MOV, Matroska, WebM, AVI, GIF, APNG or animated WebP files"
 #define UNKNOWN "the file is not a video; " ALLOWED
 
 /* Checks that a clip is not read that was cut to a length. start: of its frames. Within its header,

@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "base/file_in.h"
 
-#define ALLOWED "PNG, JPEG, WebP, TIFF, BMP or EXR"
+#define ALLOWED "PNG, JPEG, WebP, TIFF, BMP, GIF or EXR"
 
-enum { HEAD_SIZE = 21 }; /* bytes up to the flags of an extended WebP, the longest head */
+enum { HEAD_SIZE = 12 }; /* bytes of the longest signature */
 
 /* Signatures of the formats; '?' stands for any byte. */
 static const struct signature {
@@ -25,10 +25,11 @@ static const struct signature {
 } signatures[] = {
     {"\x89PNG\r\n\x1a\n", 8, KILN_PICTURE_PNG, KILN_DECODE_PNG, "PNG"},
     {"\xff\xd8\xff", 3, KILN_PICTURE_JPEG, KILN_DECODE_JPEG, "JPEG"},
-    {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_PICTURE, "WebP"},
+    {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_WEBP, "WebP"},
     {"II*\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_PICTURE, "TIFF"},
     {"MM\0*", 4, KILN_PICTURE_TIFF, KILN_DECODE_PICTURE, "TIFF"},
     {"BM", 2, KILN_PICTURE_BMP, KILN_DECODE_PICTURE, "BMP"},
+    {"GIF8", 4, KILN_PICTURE_GIF, KILN_DECODE_PICTURE, "GIF"},
     {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_PICTURE, "EXR"},
 };
 
@@ -65,14 +66,6 @@ static bool refuse_unknown(const struct head *head, const char *name, struct kil
         name, found);
 }
 
-/* Returns whether a file is an animated WebP, by its extended header. FFmpeg has no decoder for
- * these. */
-static bool is_animated_webp(const struct head *head)
-{
-    return head->size > 20 && memcmp(head->bytes + 12, "VP8X", 4) == 0 &&
-           (head->bytes[20] & 2) != 0;
-}
-
 /* Returns whether an OpenEXR file has a single part, in tiles. FFmpeg decodes the layer "beauty" of
  * such a file, since decode/exr.c reads only scan lines. Bytes 4 to 7 are a little-endian word of
  * version and flags, whose bit 9, or bit 1 of byte 5, stands for tiles. */
@@ -93,11 +86,6 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
         return refuse_unknown(head, name, error);
     request->format = signature->format;
     *kind = signature->kind;
-    if (signature->format == KILN_PICTURE_WEBP && is_animated_webp(head))
-        return kiln_error_set(
-            error, KILN_INVALID_INPUT,
-            "%s: the file is an animated WebP, which FFmpeg does not decode; use a video or APNG",
-            name);
     if (layer && signature->format == KILN_PICTURE_EXR && !(beauty && is_tiled_exr(head))) {
         *kind = KILN_DECODE_EXR;
         return snprintf(request->layer, sizeof request->layer, "%s", layer) <

@@ -8,10 +8,11 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "asset/image/animated.h"
 #include "asset/image/received.h"
 #include "base/error.h"
 
-#define ALLOWED "MP4, MOV, Matroska, WebM, AVI, GIF or APNG"
+#define ALLOWED "MP4, MOV, Matroska, WebM, AVI, GIF, APNG or animated WebP"
 
 struct kiln_video_in {
     char *path;
@@ -36,9 +37,15 @@ bool kiln_video_in_has_suffix(const char *path)
 static bool begin(struct kiln_video_in *video, int file, struct kiln_error *error)
 {
     struct kiln_received *received = &video->received;
-    const struct kiln_decode_request request = {.most_bytes = UINT64_MAX,
-                                                .most_pixels = KILN_MAX_IMAGE_PIXELS};
-    received->helper = kiln_loader_take(received->loader, KILN_DECODE_VIDEO, error);
+    const bool webp = kiln_file_is_webp(file);
+    const struct kiln_decode_request request = {
+        .format = KILN_PICTURE_WEBP,
+        .frames = true,
+        .most_bytes = webp ? KILN_MAX_IMAGE_BYTES : UINT64_MAX,
+        .most_pixels = KILN_MAX_IMAGE_PIXELS,
+    };
+    received->helper =
+        kiln_loader_take(received->loader, webp ? KILN_DECODE_WEBP : KILN_DECODE_VIDEO, error);
     if (!received->helper)
         return false;
     struct kiln_error reason = {0};

@@ -12,8 +12,9 @@
 #define KILN_DECODE_KINDS(X)                                                                       \
     X(PNG, "png")                                                                                  \
     X(JPEG, "jpeg")       /* by libjpeg-turbo */                                                   \
-    X(PROFILE, "profile") /* any of PNG and JPEG whose colour profile has tables, with lcms2 */    \
-    X(PICTURE, "picture") /* WebP, TIFF, BMP and EXR, by FFmpeg */                                 \
+    X(WEBP, "webp")       /* by libwebp, also the frames of animations */                          \
+    X(PROFILE, "profile") /* any of these whose colour profile has tables, with lcms2 */           \
+    X(PICTURE, "picture") /* TIFF, BMP, GIF and EXR, by FFmpeg */                                  \
     X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
@@ -37,6 +38,7 @@ enum kiln_picture_format {
     KILN_PICTURE_WEBP,
     KILN_PICTURE_TIFF,
     KILN_PICTURE_BMP,
+    KILN_PICTURE_GIF,
     KILN_PICTURE_EXR,
 };
 
@@ -49,6 +51,7 @@ struct kiln_decode_request {
     uint32_t uvs;         /* of a mesh: texture coordinates are wanted */
     uint32_t moving;      /* of a mesh: nodes, bones and clips are wanted */
     uint32_t raw;         /* of a picture: numbers are neither converted nor turned */
+    uint32_t frames;      /* of a WebP: all frames are wanted, answered like those of a video */
     uint64_t most_bytes;  /* size limit of the file in bytes */
     uint64_t most_pixels; /* limit of a picture's width * height */
     char layer[64];       /* name of a layer of an EXR file */

@@ -327,7 +327,7 @@ $ kiln compare a/f_%04d.png a/g_%04d.png
 = 3
 $ mkdir void
 $ kiln compare void a
-2|void: the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP or EXR, by their suffix)
+2|void: the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP, GIF or EXR, by their suffix)
 = 3
 
 Videos, whole ones and not.
@@ -357,7 +357,7 @@ $ for kind in mov avi mkv; do
 1|mkv cut short: 3
 $ cp grey.png fake.mp4
 $ kiln compare -q fake.mp4 v.mp4 2>&1 | sed 's/ (.*//'
-1|fake.mp4: the file is not a video; allowed are MP4, MOV, Matroska, WebM, AVI, GIF or APNG files
+1|fake.mp4: the file is not a video; allowed are MP4, MOV, Matroska, WebM, AVI, GIF, APNG or animated WebP files
 
 Layers of EXR files.
 
