@@ -33,6 +33,8 @@ struct decode_picture {
     bool raw;               /* the numbers are data: they are neither turned nor converted */
     uint32_t width, height; /* set when the size is known */
     bool needs_profile;     /* set: only a process of kind KILN_DECODE_PROFILE can show it */
+    uint32_t page;          /* which page is wanted; 0: the first */
+    uint32_t pages;         /* of the file; 1, unless the reader sets it */
     struct kiln_error *error;
 };
 
@@ -41,7 +43,8 @@ struct decode_meaning {
     const uint8_t *profile; /* an ICC profile, or NULL */
     size_t profile_size;
     const struct kiln_color *color; /* of a file without a profile; NULL: sRGB */
-    bool ink;             /* pixels are white less cyan, magenta, yellow and black, of 8 bits */
+    bool ink;                       /* pixels are white less cyan, magenta, yellow and black */
+    const void *ink_alpha;          /* of ink: a number for each pixel; NULL: opaque */
     uint32_t orientation; /* 1 to 8, as in Exif: what turns the picture upright; 0: as stored */
 };
 
@@ -85,6 +88,7 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
 struct kiln_asset_image *decode_png(struct decode_picture *picture);
 struct kiln_asset_image *decode_jpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_webp(struct decode_picture *picture);
+struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
 
@@ -95,6 +99,7 @@ bool decode_webp_frames(struct decode_picture *picture,
 /* Open the libraries of pictures, before the process is confined. */
 bool decode_jpeg_begin(struct kiln_error *error);
 bool decode_webp_begin(struct kiln_error *error);
+bool decode_tiff_begin(struct kiln_error *error);
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 

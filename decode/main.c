@@ -133,7 +133,7 @@ static unsigned char *read_file(int file, uint64_t most, size_t *size, struct ki
     return bytes;
 }
 
-static void send_image(const struct kiln_asset_image *image)
+static void send_image(const struct kiln_asset_image *image, uint32_t pages)
 {
     const struct kiln_decode_answer answer = {.what = KILN_DECODE_PIXELS,
                                               .width = image->width,
@@ -141,7 +141,8 @@ static void send_image(const struct kiln_asset_image *image)
                                               .channels = image->channels,
                                               .type = image->type,
                                               .srgb = image->srgb,
-                                              .premultiplied = image->premultiplied};
+                                              .premultiplied = image->premultiplied,
+                                              .pages = pages};
     send_answer(&answer);
     send_bytes(image->pixels, kiln_asset_image_bytes(image));
 }
@@ -156,6 +157,8 @@ static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
     switch (picture->format) {
     case KILN_PICTURE_JPEG:
         return decode_jpeg(picture);
+    case KILN_PICTURE_TIFF:
+        return decode_tiff(picture);
     case KILN_PICTURE_WEBP:
         return decode_webp(picture);
     default:
@@ -167,7 +170,7 @@ static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
 static bool send_frame(void *user, struct kiln_asset_image *image)
 {
     (void)user;
-    send_image(image);
+    send_image(image, 1);
     kiln_asset_image_destroy(&image);
     return true;
 }
@@ -190,6 +193,8 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
                                      .layer = request->layer,
                                      .most_pixels = request->most_pixels,
                                      .raw = request->raw,
+                                     .page = request->page,
+                                     .pages = 1,
                                      .error = &error};
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
     struct kiln_asset_image *image = NULL;
@@ -203,7 +208,7 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
         image = decode_file(kind, &picture);
     free(bytes);
     if (image)
-        send_image(image);
+        send_image(image, picture.pages);
     else if (picture.needs_profile)
         send_text(KILN_DECODE_NEEDS_PROFILE, "");
     else
@@ -222,7 +227,7 @@ static void serve_video(int file)
     do {
         ok = ok && decode_video_read(video, &image, &error);
         if (image)
-            send_image(image);
+            send_image(image, 1);
         else if (ok)
             send_text(KILN_DECODE_END, "");
         const bool more = image != NULL;
@@ -298,10 +303,15 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
 
 static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
 {
+    struct kiln_error ignored = {0};
     switch (kind) {
     case KILN_DECODE_JPEG:
         return decode_jpeg_begin(error);
+    case KILN_DECODE_TIFF:
+        return decode_tiff_begin(error);
     case KILN_DECODE_PROFILE:
+        /* Without libtiff no TIFF file gets here, and the others need not have it. */
+        (void)decode_tiff_begin(&ignored);
         return decode_jpeg_begin(error) && decode_webp_begin(error) && decode_profile_begin(error);
     case KILN_DECODE_WEBP:
         return decode_webp_begin(error);

@@ -15,8 +15,9 @@ struct codec {
 };
 
 static const struct codec codecs[] = {
-    [KILN_PICTURE_PNG] = {AV_CODEC_ID_PNG, "PNG"}, [KILN_PICTURE_TIFF] = {AV_CODEC_ID_TIFF, "TIFF"},
-    [KILN_PICTURE_BMP] = {AV_CODEC_ID_BMP, "BMP"}, [KILN_PICTURE_GIF] = {AV_CODEC_ID_GIF, "GIF"},
+    [KILN_PICTURE_PNG] = {AV_CODEC_ID_PNG, "PNG"},
+    [KILN_PICTURE_BMP] = {AV_CODEC_ID_BMP, "BMP"},
+    [KILN_PICTURE_GIF] = {AV_CODEC_ID_GIF, "GIF"},
     [KILN_PICTURE_EXR] = {AV_CODEC_ID_EXR, "EXR"},
 };
 
@@ -104,9 +105,8 @@ static bool open_decoder(struct decoding *decoding)
     decode_same_everywhere(decoding->decoder);
     decoding->decoder->thread_count = 1; /* the messages and the limits stay on this thread */
     decoding->decoder->max_pixels = KILN_MAX_IMAGE_PIXELS;
-    decoding->decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
-    if (id != AV_CODEC_ID_TIFF) /* for TIFF it would refuse every tag that FFmpeg does not know */
-        decoding->decoder->err_recognition |= AV_EF_EXPLODE;
+    decoding->decoder->err_recognition =
+        AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
     const int status = kiln_ff.avcodec_open2(decoding->decoder, codec, NULL);
     if (status == AVERROR(ENOMEM))
         return fail_memory(decoding);

@@ -44,7 +44,7 @@ static cmsUInt32Number layout_of(const struct kiln_asset_image *image, bool ink)
 {
     const cmsUInt32Number bytes = image->type == KILN_IMAGE_U16 ? 2 : 1;
     if (ink)
-        return TYPE_CMYK_8_REV;
+        return bytes == 2 ? TYPE_CMYK_16_REV : TYPE_CMYK_8_REV;
     if (image->channels < 3)
         return COLORSPACE_SH(PT_GRAY) | CHANNELS_SH(1) | EXTRA_SH(3) | BYTES_SH(bytes);
     return COLORSPACE_SH(PT_RGB) | CHANNELS_SH(3) | EXTRA_SH(1) | BYTES_SH(bytes);

@@ -1,5 +1,7 @@
 /* This file makes the picture that a file means of the numbers that it stores: in sRGB, and
  * upright. */
+#include <stdlib.h>
+
 #include "base/error.h"
 #include "decode.h"
 
@@ -26,16 +28,111 @@ static void show_ink(struct kiln_asset_image *image)
     }
 }
 
-static void make_opaque(struct kiln_asset_image *image)
+/* The same for numbers of 16 bits. */
+static void show_deep_ink(struct kiln_asset_image *image)
 {
-    uint8_t *pixel = image->pixels;
-    const uint8_t *end = pixel + kiln_asset_image_bytes(image);
-    for (; pixel < end; pixel += 4)
-        pixel[3] = 255;
+    uint16_t *pixel = image->pixels;
+    const uint16_t *end = pixel + 4 * (size_t)image->width * image->height;
+    for (; pixel < end; pixel += 4) {
+        for (int c = 0; c < 3; c++) {
+            const uint64_t product = (uint64_t)(65535u - pixel[c]) * pixel[3];
+            pixel[c] = (uint16_t)(pixel[3] - (product + 32767u) / 65535u);
+        }
+    }
 }
+
+/* Puts alpha in the place of black. */
+static void put_alpha(struct kiln_asset_image *image, const void *alpha)
+{
+    const size_t count = (size_t)image->width * image->height;
+    uint8_t *bytes = image->pixels;
+    uint16_t *words = image->pixels;
+    for (size_t i = 0; i < count; i++) {
+        if (image->type == KILN_IMAGE_U16)
+            words[4 * i + 3] = alpha ? ((const uint16_t *)alpha)[i] : 65535;
+        else
+            bytes[4 * i + 3] = alpha ? ((const uint8_t *)alpha)[i] : 255;
+    }
+}
+
+/* ---- associated alpha ------------------------------------------------------------------------ */
+
+static uint32_t value_at(const struct kiln_asset_image *image, size_t at)
+{
+    return image->type == KILN_IMAGE_U16 ? ((const uint16_t *)image->pixels)[at]
+                                         : ((const uint8_t *)image->pixels)[at];
+}
+
+static void set_value(struct kiln_asset_image *image, size_t at, uint32_t value)
+{
+    if (image->type == KILN_IMAGE_U16)
+        ((uint16_t *)image->pixels)[at] = (uint16_t)value;
+    else
+        ((uint8_t *)image->pixels)[at] = (uint8_t)value;
+}
+
+/* Divides colours by their alpha, or by the brightest of them where that is more, so that a profile
+ * converts colours and not their products. Returns the divisor of each pixel, which the caller
+ * frees, or NULL. */
+static uint16_t *divide_by_alpha(struct kiln_asset_image *image)
+{
+    const size_t count = (size_t)image->width * image->height;
+    const uint32_t full = image->type == KILN_IMAGE_U16 ? 65535 : 255;
+    uint16_t *divisors = malloc(count * sizeof *divisors);
+    for (size_t i = 0; divisors && i < count; i++) {
+        uint32_t most = 0;
+        for (size_t c = 0; c < 4; c++) {
+            const uint32_t value = value_at(image, 4 * i + c);
+            most = value > most ? value : most;
+        }
+        divisors[i] = (uint16_t)most;
+        for (size_t c = 0; c < 3 && most > 0; c++) {
+            const uint64_t product = (uint64_t)value_at(image, 4 * i + c) * full;
+            set_value(image, 4 * i + c, (uint32_t)((product + most / 2) / most));
+        }
+    }
+    return divisors;
+}
+
+static void multiply_again(struct kiln_asset_image *image, const uint16_t *divisors)
+{
+    const size_t count = (size_t)image->width * image->height;
+    const uint32_t full = image->type == KILN_IMAGE_U16 ? 65535 : 255;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            const uint64_t product = (uint64_t)value_at(image, 4 * i + c) * divisors[i];
+            set_value(image, 4 * i + c, (uint32_t)((product + full / 2) / full));
+        }
+    }
+}
+
+/* ---- colour ---------------------------------------------------------------------------------- */
 
 /* What became of the colours of a picture. */
 enum shown { SHOWN, UNKNOWN, FAILED };
+
+/* Converts colours by a profile with tables, or else by `color`. */
+static enum shown convert(struct kiln_asset_image *image, const struct decode_meaning *meaning,
+                          const struct kiln_color *color)
+{
+    uint16_t *divisors = NULL;
+    if (image->premultiplied) {
+        divisors = divide_by_alpha(image);
+        if (!divisors)
+            return FAILED;
+    }
+    const bool ok =
+        color ? kiln_color_convert(color, image) : decode_profile_convert(image, meaning);
+    if (divisors)
+        multiply_again(image, divisors);
+    free(divisors);
+    return ok ? SHOWN : color ? FAILED : UNKNOWN;
+}
+
+static enum shown show_color(const struct kiln_color *color, struct kiln_asset_image *image)
+{
+    return kiln_color_is_srgb(color) ? SHOWN : convert(image, NULL, color);
+}
 
 /* Converts the picture by the profile of its file. */
 static enum shown show_profile(struct decode_picture *picture, struct kiln_asset_image *image,
@@ -47,19 +144,21 @@ static enum shown show_profile(struct decode_picture *picture, struct kiln_asset
     case DECODE_PROFILE_NONE:
         break;
     case DECODE_PROFILE_COLOR:
-        return kiln_color_is_srgb(&color) || kiln_color_convert(&color, image) ? SHOWN : FAILED;
+        return show_color(&color, image);
     case DECODE_PROFILE_TABLES:
         picture->needs_profile = !decode_profile_is_ready();
-        if (picture->needs_profile)
-            return FAILED;
-        return decode_profile_convert(image, meaning) ? SHOWN : UNKNOWN;
+        return picture->needs_profile ? FAILED : convert(image, meaning, NULL);
     }
     return UNKNOWN;
 }
 
-static enum shown show_color(const struct kiln_color *color, struct kiln_asset_image *image)
+/* Shows ink that no profile has turned into colours. */
+static void show_plain_ink(struct kiln_asset_image *image)
 {
-    return kiln_color_is_srgb(color) || kiln_color_convert(color, image) ? SHOWN : FAILED;
+    if (image->type == KILN_IMAGE_U16)
+        show_deep_ink(image);
+    else
+        show_ink(image);
 }
 
 bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
@@ -71,9 +170,9 @@ bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
     if (!picture->raw && meaning->color && shown == UNKNOWN)
         shown = show_color(meaning->color, image);
     if (meaning->ink && shown == UNKNOWN)
-        show_ink(image);
+        show_plain_ink(image);
     if (meaning->ink)
-        make_opaque(image);
+        put_alpha(image, meaning->ink_alpha);
     if (picture->needs_profile)
         return kiln_error_set(picture->error, KILN_INVALID_INPUT,
                               "a colour profile with tables cannot be applied to an animation");

@@ -28,6 +28,15 @@ static float linear_to_level(float x)
     return copysignf(255.0f * encoded, x);
 }
 
+/* Returns the light, multiplied by alpha, of a number that is multiplied by alpha in its encoding
+ * (lib/asset/image/linear.c). */
+static double associated_light(double x, double alpha)
+{
+    if (x <= alpha)
+        return alpha > 0.0 ? alpha * srgb_to_linear(x / alpha) : 0.0;
+    return alpha + srgb_to_linear(x) - srgb_to_linear(alpha);
+}
+
 static void make_tables(struct conversion *conversion)
 {
     for (int i = 0; i < 256; i++) {
@@ -51,7 +60,10 @@ static void convert_bytes(const struct conversion *conversion, size_t begin, siz
         if (!picture->alpha || in[3] == 255)
             continue;
         for (size_t c = 0; c < 3; c++) {
-            linear[3 * i + c] *= (float)in[3] / 255.0f;
+            if (conversion->image->premultiplied)
+                linear[3 * i + c] = (float)associated_light(in[c] / 255.0, in[3] / 255.0);
+            else
+                linear[3 * i + c] *= (float)in[3] / 255.0f;
             levels[3 * i + c] = linear_to_level(linear[3 * i + c]);
         }
     }
@@ -81,20 +93,28 @@ static float value_at(const struct kiln_asset_image *image, size_t index)
     return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
 }
 
+/* Returns the light, multiplied by alpha, of a number. */
+static float light_of(const struct kiln_asset_image *image, float x, float alpha)
+{
+    if (image->srgb && image->premultiplied && alpha != 1.0f)
+        return (float)associated_light((double)x, (double)alpha);
+    const float factor = image->premultiplied ? 1.0f : alpha;
+    return factor * (image->srgb ? (float)srgb_to_linear((double)x) : x);
+}
+
 static void convert_values(struct conversion *conversion, size_t begin, size_t end)
 {
     const struct kiln_asset_image *image = conversion->image;
     const struct kiln_compare_picture *picture = conversion->picture;
     for (size_t i = begin; i < end; i++) {
         float alpha = picture->alpha ? value_at(image, 4 * i + 3) : 1.0f;
-        float factor = image->premultiplied ? 1.0f : alpha;
         bool finite = isfinite(alpha);
         for (size_t c = 0; c < 3; c++) {
             float x = value_at(image, 4 * i + c);
-            float light = image->srgb ? (float)srgb_to_linear((double)x) : x;
-            picture->linear[3 * i + c] = factor * light;
+            float light = light_of(image, x, alpha);
+            picture->linear[3 * i + c] = light;
             picture->levels[3 * i + c] =
-                image->srgb && factor == 1.0f ? 255.0f * x : linear_to_level(factor * light);
+                image->srgb && alpha == 1.0f ? 255.0f * x : linear_to_level(light);
             finite = finite && isfinite(x);
         }
         if (picture->alpha)

@@ -331,6 +331,31 @@ static void copy_channels(const struct kiln_asset_image *image, struct kiln_pict
     }
 }
 
+/* Divides colours by their alpha, where a file has them multiplied. Colour brighter than its alpha
+ * has its brightness as alpha, so that the picture over black stays as it is. */
+static void make_straight(struct kiln_picture *picture)
+{
+    const size_t count = (size_t)picture->width * picture->height;
+    const uint32_t full = picture->bits == 16 ? 65535 : 255;
+    uint8_t *bytes = picture->display;
+    uint16_t *words = picture->display;
+    for (size_t i = 0; i < 4 * count; i += 4) {
+        uint32_t values[4], alpha = 0;
+        for (size_t c = 0; c < 4; c++) {
+            values[c] = picture->bits == 16 ? words[i + c] : bytes[i + c];
+            alpha = values[c] > alpha ? values[c] : alpha;
+        }
+        for (size_t c = 0; c < 4; c++) {
+            const uint64_t product = (uint64_t)values[c] * full + alpha / 2;
+            const uint32_t straight = c == 3 || alpha == 0 ? alpha : (uint32_t)(product / alpha);
+            if (picture->bits == 16)
+                words[i + c] = (uint16_t)straight;
+            else
+                bytes[i + c] = (uint8_t)straight;
+        }
+    }
+}
+
 static bool fill(const struct encode *encode, const struct kiln_asset_image *image,
                  struct kiln_picture *picture, struct kiln_error *error)
 {
@@ -347,6 +372,8 @@ static bool fill(const struct encode *encode, const struct kiln_asset_image *ima
         return kiln_display_make(encode->threads, &display, image->pixels, picture->display, error);
     }
     copy_channels(image, picture);
+    if (image->premultiplied)
+        make_straight(picture);
     return true;
 }
 

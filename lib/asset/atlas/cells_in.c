@@ -32,12 +32,8 @@ static void read_raw(const struct kiln_asset_image *image, size_t pixel, float r
 static void read_light(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
 {
     read_raw(image, pixel, rgba);
-    for (int c = 0; c < 3; c++) {
-        if (image->srgb)
-            rgba[c] = kiln_decode_srgb(rgba[c]);
-        if (!image->premultiplied)
-            rgba[c] *= rgba[3];
-    }
+    for (int c = 0; c < 3; c++)
+        rgba[c] = kiln_light_of(image, rgba[c], rgba[3]);
 }
 
 /* Reads a pixel as motion, in red and green. The value 128 (of 8 bits), 32768 (of 16 bits) or 0.5

@@ -277,3 +277,60 @@ bool kiln_color_convert(const struct kiln_color *color, struct kiln_asset_image 
     free(lights);
     return true;
 }
+
+/* ---- CIELAB ---------------------------------------------------------------------------------- */
+
+/* Returns the part of white's X, Y or Z for a number of CIELAB (CIE 015:2018, 8.2.1). */
+static double part_of_white(double f)
+{
+    const double delta = 6.0 / 29.0;
+    return f > delta ? f * f * f : 3.0 * delta * delta * (f - 4.0 / 29.0);
+}
+
+/* Finds the matrix from parts of a white's X, Y and Z to light of sRGB's primaries. */
+static bool find_white_to_srgb(const double white[2], double to_srgb[3][3])
+{
+    double adapt[3][3];
+    if (!(white[1] > 1e-6))
+        return false;
+    const double xyz[3] = {white[0] / white[1], 1.0, (1.0 - white[0] - white[1]) / white[1]};
+    if (!adapt_to_d50(xyz, adapt))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            adapt[i][j] *= xyz[j];
+    }
+    return kiln_columns_to_srgb(adapt, to_srgb);
+}
+
+bool kiln_lab_convert(const struct kiln_lab *lab, struct kiln_asset_image *image)
+{
+    const bool deep = image->type == KILN_IMAGE_U16;
+    const double step = deep ? 1.0 / 256.0 : 1.0;
+    const size_t pixels = (size_t)image->width * image->height;
+    uint8_t *bytes = image->pixels;
+    uint16_t *words = image->pixels;
+    struct kiln_color color;
+    struct encoder encoder;
+    if (!find_white_to_srgb(lab->white, color.to_srgb))
+        return false;
+    make_encoder(&encoder);
+    for (size_t i = 0; i < pixels; i++) {
+        double n[3];
+        float found[3];
+        for (size_t c = 0; c < 3; c++)
+            n[c] = (double)(deep ? words[4 * i + c] : bytes[4 * i + c]);
+        const double y = (n[0] * (100.0 / lab->brightest) + 16.0) / 116.0;
+        const double x = y + (n[1] * step - 128.0) / 500.0, z = y - (n[2] * step - 128.0) / 200.0;
+        const float parts[3] = {(float)part_of_white(x), (float)part_of_white(y),
+                                (float)part_of_white(z)};
+        find_light(&color, parts, found);
+        for (size_t c = 0; c < 3; c++) {
+            if (deep)
+                words[4 * i + c] = encode16(found[c]);
+            else
+                bytes[4 * i + c] = encode8(&encoder, found[c]);
+        }
+    }
+    return true;
+}

@@ -46,4 +46,21 @@ bool kiln_color_is_srgb(const struct kiln_color *color);
  * stays grey: only the first curve counts. Alpha is not changed. */
 bool kiln_color_convert(const struct kiln_color *color, struct kiln_asset_image *image);
 
+/* Says what the numbers of a CIELAB picture are. L* is 0 to 100 for 0 to `brightest`; a* and b* are
+ * the numbers less 128, or less 128 * 256 and divided by 256. */
+struct kiln_lab {
+    double white[2]; /* its place in the chromaticity diagram */
+    double brightest;
+};
+
+/* Places white of the connection space of ICC profiles in the chromaticity diagram. */
+#define KILN_WHITE_D50                                                                             \
+    {                                                                                              \
+        0.9642 / (0.9642 + 1.0 + 0.8249), 1.0 / (0.9642 + 1.0 + 0.8249)                            \
+    }
+
+/* Converts pixels of CIELAB, integers, to sRGB of the same depth. Light outside of sRGB is clipped.
+ * Alpha is not changed. False: white is none. */
+bool kiln_lab_convert(const struct kiln_lab *lab, struct kiln_asset_image *image);
+
 #endif

@@ -26,8 +26,10 @@ static const struct signature {
     {"\x89PNG\r\n\x1a\n", 8, KILN_PICTURE_PNG, KILN_DECODE_PNG, "PNG"},
     {"\xff\xd8\xff", 3, KILN_PICTURE_JPEG, KILN_DECODE_JPEG, "JPEG"},
     {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_WEBP, "WebP"},
-    {"II*\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_PICTURE, "TIFF"},
-    {"MM\0*", 4, KILN_PICTURE_TIFF, KILN_DECODE_PICTURE, "TIFF"},
+    {"II*\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
+    {"MM\0*", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
+    {"II+\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"}, /* BigTIFF */
+    {"MM\0+", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
     {"BM", 2, KILN_PICTURE_BMP, KILN_DECODE_PICTURE, "BMP"},
     {"GIF8", 4, KILN_PICTURE_GIF, KILN_DECODE_PICTURE, "GIF"},
     {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_PICTURE, "EXR"},
@@ -103,6 +105,7 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 struct wanted {
     const char *layer; /* NULL: the picture, whose values are finite */
     bool raw;          /* the numbers are data, not colours */
+    uint32_t page;
 };
 
 /* Lets a process of a kind decode an open file. *needs_profile is set if only one of kind
@@ -133,7 +136,8 @@ static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_de
 static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
                                        const struct wanted *wanted, struct kiln_error *error)
 {
-    struct kiln_decode_request request = {.most_bytes = KILN_MAX_IMAGE_BYTES, .raw = wanted->raw};
+    struct kiln_decode_request request = {
+        .most_bytes = KILN_MAX_IMAGE_BYTES, .raw = wanted->raw, .page = wanted->page};
     struct kiln_received received = {.loader = loader, .name = name, .finite = !wanted->layer};
     struct head head;
     const ssize_t got = pread(file, head.bytes, sizeof head.bytes, 0);
@@ -145,6 +149,11 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
     head.size = (size_t)got;
     if (!choose_kind(&head, name, wanted->layer, &kind, &request, error))
         return NULL;
+    if (wanted->page > 0 && request.format != KILN_PICTURE_TIFF) {
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: no page %u: only TIFF images have pages",
+                       name, wanted->page);
+        return NULL;
+    }
     request.most_pixels = kiln_received_most_pixels(loader);
     bool needs_profile = false;
     struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_profile, error);
@@ -165,7 +174,7 @@ static struct kiln_asset_image *load(struct kiln_loader *loader, const char *pat
     close(file);
     uint32_t known[2];
     /* Data are not turned, so their width may be the height that is known of the picture. */
-    if (image && !what->raw && kiln_loader_knows_size(loader, path, known) &&
+    if (image && !what->raw && what->page == 0 && kiln_loader_knows_size(loader, path, known) &&
         (image->width != known[0] || image->height != known[1])) {
         kiln_error_set(error, KILN_INVALID_INPUT,
                        "%s: the image changed while it was read: it has %u x %u pixels, and had %u "
@@ -179,19 +188,25 @@ static struct kiln_asset_image *load(struct kiln_loader *loader, const char *pat
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error)
 {
-    return load(loader, path, &(struct wanted){NULL, false}, error);
+    return load(loader, path, &(struct wanted){.layer = NULL}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, const char *path,
                                                     struct kiln_error *error)
 {
-    return load(loader, path, &(struct wanted){NULL, true}, error);
+    return load(loader, path, &(struct wanted){.raw = true}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
                                                      const char *layer, struct kiln_error *error)
 {
-    return load(loader, path, &(struct wanted){layer, false}, error);
+    return load(loader, path, &(struct wanted){.layer = layer}, error);
+}
+
+struct kiln_asset_image *kiln_asset_image_load_page(struct kiln_loader *loader, const char *path,
+                                                    uint32_t page, struct kiln_error *error)
+{
+    return load(loader, path, &(struct wanted){.page = page}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
@@ -200,7 +215,7 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
     struct kiln_asset_image *image = NULL;
     const int file = kiln_loader_file_of(bytes, size, name, error);
     if (file >= 0 && kiln_file_check_size(name, "image", size, KILN_MAX_IMAGE_BYTES, error))
-        image = decode(NULL, file, name, &(struct wanted){NULL, false}, error);
+        image = decode(NULL, file, name, &(struct wanted){.layer = NULL}, error);
     if (file >= 0)
         close(file);
     return image;

@@ -26,8 +26,11 @@ struct kiln_asset_image {
     /* channels of the source: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
     uint32_t channels;
     enum kiln_image_type type;
-    bool srgb;          /* encoded with sRGB's transfer function; else linear */
-    bool premultiplied; /* colour is already multiplied by alpha (EXR) */
+    bool srgb; /* encoded with sRGB's transfer function; else linear */
+    /* Colour is already multiplied by alpha: light in an EXR, encoded values where srgb is set
+     * (TIFF). Colour beyond alpha, also where alpha is 0, is light without cover. */
+    bool premultiplied;
+    uint32_t pages; /* pages of the file, of which this is one; 1 for files without pages */
     void *pixels;
 };
 
@@ -57,6 +60,11 @@ struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, 
  * not made finite. */
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
                                                      const char *layer, struct kiln_error *error);
+
+/* Decodes a page of a file; the first is 0. Only TIFF files have more than one. KILN_INVALID_INPUT
+ * also when there is no such page. */
+struct kiln_asset_image *kiln_asset_image_load_page(struct kiln_loader *loader, const char *path,
+                                                    uint32_t page, struct kiln_error *error);
 
 /* Decodes an image as kiln_asset_image_load does, from bytes in memory; name stands for the file in
  * messages. */

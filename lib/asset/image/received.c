@@ -21,7 +21,7 @@ static bool is_sound(const struct kiln_decode_answer *answer)
            answer->height <= KILN_MAX_IMAGE_EDGE &&
            (uint64_t)answer->width * answer->height <= KILN_MAX_IMAGE_PIXELS &&
            answer->channels >= 1 && answer->channels <= 4 && answer->type <= KILN_IMAGE_F32 &&
-           answer->srgb <= 1 && answer->premultiplied <= 1;
+           answer->srgb <= 1 && answer->premultiplied <= 1 && answer->pages >= 1;
 }
 
 static bool are_finite(const struct kiln_asset_image *image)
@@ -81,7 +81,8 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
                                            .channels = answer.channels,
                                            .type = (enum kiln_image_type)answer.type,
                                            .srgb = answer.srgb,
-                                           .premultiplied = answer.premultiplied};
+                                           .premultiplied = answer.premultiplied,
+                                           .pages = answer.pages};
         ok = count_pixels(received, (uint64_t)answer.width * answer.height, reason) &&
              receive_pixels(received, image, reason);
     }

@@ -12,9 +12,10 @@
 #define KILN_DECODE_KINDS(X)                                                                       \
     X(PNG, "png")                                                                                  \
     X(JPEG, "jpeg")       /* by libjpeg-turbo */                                                   \
+    X(TIFF, "tiff")       /* by libtiff */                                                         \
     X(WEBP, "webp")       /* by libwebp, also the frames of animations */                          \
     X(PROFILE, "profile") /* any of these whose colour profile has tables, with lcms2 */           \
-    X(PICTURE, "picture") /* TIFF, BMP, GIF and EXR, by FFmpeg */                                  \
+    X(PICTURE, "picture") /* BMP, GIF and EXR, by FFmpeg */                                        \
     X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
@@ -52,6 +53,7 @@ struct kiln_decode_request {
     uint32_t moving;      /* of a mesh: nodes, bones and clips are wanted */
     uint32_t raw;         /* of a picture: numbers are neither converted nor turned */
     uint32_t frames;      /* of a WebP: all frames are wanted, answered like those of a video */
+    uint32_t page;        /* of a picture: which page of the file; 0: the first */
     uint64_t most_bytes;  /* size limit of the file in bytes */
     uint64_t most_pixels; /* limit of a picture's width * height */
     char layer[64];       /* name of a layer of an EXR file */
@@ -87,7 +89,7 @@ struct kiln_decode_answer {
     int32_t code;  /* one of enum kiln_code */
     char text[KILN_MESSAGE_SIZE];
     /* of a picture: the members of struct kiln_asset_image with these names */
-    uint32_t width, height, channels, type, srgb, premultiplied;
+    uint32_t width, height, channels, type, srgb, premultiplied, pages;
     uint32_t vertices, triangles;                          /* of a mesh: counts */
     uint32_t has_normals;                                  /* of a mesh that moves */
     uint32_t nodes, bones, clips, channels_of_clips, keys; /* counts of the same */
