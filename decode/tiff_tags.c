@@ -156,19 +156,23 @@ static bool check_both(struct tiff_reading *reading)
     return decode_tiff_refuse(reading, "of inks other than cyan, magenta, yellow and black");
 }
 
-static void find_alpha(struct tiff_reading *reading)
+/* Finds the first sample that the file names as alpha. Others have no meaning that kiln knows. */
+static bool find_alpha(struct tiff_reading *reading)
 {
     struct tiff_samples *samples = &reading->samples;
     uint16_t count = 0, *kinds = NULL;
     if (!reading->tiff->TIFFGetFieldDefaulted(reading->file, TIFFTAG_EXTRASAMPLES, &count, &kinds))
-        return;
+        return true;
     for (uint32_t i = 0; kinds && i < count && samples->colors + i < samples->samples; i++) {
         if (kinds[i] == EXTRASAMPLE_ASSOCALPHA || kinds[i] == EXTRASAMPLE_UNASSALPHA) {
             samples->alpha = samples->colors + i;
             samples->associated = kinds[i] == EXTRASAMPLE_ASSOCALPHA;
-            return;
+            break;
         }
     }
+    return !samples->associated || samples->color == TIFF_GREY || samples->color == TIFF_RGB ||
+           decode_tiff_refuse(reading, "of colours multiplied by alpha that are neither grey, with "
+                                       "0 for black, nor RGB");
 }
 
 static bool find_palette(struct tiff_reading *reading)
@@ -250,7 +254,8 @@ bool decode_tiff_describe(struct tiff_reading *reading)
         !check_numbers(reading) || !check_color(reading) || !check_both(reading) ||
         !check_compression(reading) || !choose_jpeg(reading))
         return false;
-    find_alpha(reading);
+    if (!find_alpha(reading))
+        return false;
     if (samples->color == TIFF_PALETTE)
         return find_palette(reading);
     if (samples->color == TIFF_YCBCR)

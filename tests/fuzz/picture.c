@@ -1,6 +1,6 @@
-/* Fuzzes the decoding of pictures by FFmpeg, libjpeg-turbo and libwebp: for any input the decoder
- * must return an image within the size limits or an error, and never crash. If this fails, a
- * malicious picture may take over kiln-decode, the separate process that decodes untrusted files.
+/* Fuzzes the decoding of pictures by FFmpeg, libjpeg-turbo, libtiff and libwebp: for any input the
+ * decoder must return an image within the size limits or an error, and never crash. If this fails,
+ * a malicious picture may take over kiln-decode, the separate process that decodes untrusted files.
  * The first two bytes of an input choose the file format. */
 #include <string.h>
 
@@ -27,6 +27,8 @@ static struct kiln_asset_image *decode(struct decode_picture *picture)
     switch (picture->format) {
     case KILN_PICTURE_JPEG:
         return decode_jpeg(picture);
+    case KILN_PICTURE_TIFF:
+        return decode_tiff(picture);
     case KILN_PICTURE_WEBP:
         return decode_webp(picture);
     default:
@@ -38,11 +40,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct kiln_error error = {0};
     require(kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, &error), "FFmpeg is missing");
-    require(decode_jpeg_begin(&error) && decode_webp_begin(&error) && decode_profile_begin(&error),
+    require(decode_jpeg_begin(&error) && decode_tiff_begin(&error) && decode_webp_begin(&error) &&
+                decode_profile_begin(&error),
             "a library is missing");
     struct decode_picture picture = {.bytes = data,
                                      .size = size,
                                      .format = format_of(data, size),
+                                     .pages = 1,
                                      .most_pixels = KILN_MAX_IMAGE_PIXELS,
                                      .error = &error};
     fuzz_taken = check_image(decode(&picture), &error);
