@@ -67,6 +67,20 @@ static bool count_frame(void *user, const struct kiln_footage_frame *frame)
     return true;
 }
 
+/* Multiplies light by alpha where the file has it straight, as TIFF files may. */
+static void multiply_light(struct kiln_asset_image *image)
+{
+    float *pixels = image->pixels;
+    const size_t count = (size_t)image->width * image->height;
+    if (image->type != KILN_IMAGE_F32 || image->premultiplied)
+        return;
+    for (size_t i = 0; i < 4 * count; i += 4) {
+        for (size_t c = 0; c < 3; c++)
+            pixels[i + c] *= pixels[i + 3];
+    }
+    image->premultiplied = true;
+}
+
 /* Reads the next image, what it says of itself, and the number of its frame. */
 static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN_PATH_SIZE],
                                            struct kiln_carried *carried, uint32_t *number,
@@ -81,6 +95,7 @@ static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN
     struct kiln_error reason = {0};
     if (!image)
         return NULL;
+    multiply_light(image);
     if (!kiln_carried_read(path, carried, &reason) && reason.code == KILN_DEVICE_FAILED) {
         *error = reason;
         kiln_asset_image_destroy(&image);
