@@ -49,7 +49,8 @@ def pngs():
         "empty": b"", "text": b"hello", "zeros": bytes(1000), "not zlib": png(pixels=b"\xff" * 100),
     }
     for i, (label, data) in enumerate(broken.items()):
-        yield asset("pictures", ("atlas", "floor", "terrain")[i % 3], f"PNG {label}", "a.png", data, smoke=label == "cut")
+        yield asset("pictures", ("atlas", "floor", "terrain")[i % 3], f"PNG {label}", "a.png", data, *[OK] * (label == "without an end"),
+                    smoke=label == "cut")
 
 
 def encoded(kind, **options):
