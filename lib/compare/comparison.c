@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/order.h"
 #include "base/shown.h"
 #include "base/sized.h"
 #include "compare/difference.h"
@@ -242,7 +243,7 @@ static int order(const struct comparison *comparison, const struct kiln_footage_
     case KILN_FOOTAGE_STILL:
         return 0;
     case KILN_FOOTAGE_FOLDER:
-        return strcmp(next[0].name, next[1].name);
+        return kiln_order_names(next[0].name, next[1].name);
     case KILN_FOOTAGE_NUMBERED:
     case KILN_FOOTAGE_VIDEO:
         break;

@@ -16,6 +16,7 @@
 #include "asset/image/video_in.h"
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/order.h"
 #include "base/pattern.h"
 #include "kiln_program.h"
 
@@ -101,7 +102,7 @@ static int compare_entries(const void *a, const void *b)
 {
     const struct entry *p = a, *q = b;
     return p->number != q->number ? (p->number > q->number) - (p->number < q->number)
-                                  : strcmp(p->name, q->name);
+                                  : kiln_order_names(p->name, q->name);
 }
 
 /* Lists the folder's names that fit the pattern or, without a pattern, its pictures. */

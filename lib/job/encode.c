@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/order.h"
 #include "base/sized.h"
 #include "base/text.h"
 #include "compare/footage.h"
@@ -18,6 +19,7 @@
 #include "option/unit.h"
 #include "output/carried.h"
 #include "output/formats.h"
+#include "output/video.h"
 #include "post/display.h"
 
 struct encode {
@@ -26,7 +28,8 @@ struct encode {
     struct kiln_caller caller;
     struct kiln_threads *threads;
     struct kiln_footage *footage;
-    uint32_t count; /* the number of frames found */
+    uint32_t count;     /* the number of frames found */
+    const char *before; /* name of the frame that was counted last */
     struct kiln_output *output;
     enum kiln_tonemap tonemap;
 
@@ -35,34 +38,56 @@ struct encode {
     struct kiln_carried carried;
     struct kiln_asset_image *image; /* its pixels are freed when the frame is written */
     uint32_t number, bits;
-    bool alpha;
+
+    bool takes_alpha; /* the clip's format has alpha */
+    bool alpha;       /* so has the clip */
+    bool begin_again; /* a frame is transparent, so that the clip needs alpha from its start */
 };
 
-/* Returns whether an image's alpha counts. kiln's EXR images always have the channel and say
- * whether it counts, since smoke may cover all of a frame. In other EXR images it counts where a
- * pixel is not covered. */
-static bool has_alpha(const struct kiln_asset_image *image, const struct kiln_carried *carried)
+static bool has_channel(const struct kiln_asset_image *image)
 {
-    const bool has = image->channels == 2 || image->channels == 4;
-    if (!has || image->type != KILN_IMAGE_F32)
-        return has;
-    if (*carried->alpha)
-        return *carried->alpha == '1';
-    const float *pixels = image->pixels;
+    return image->channels == 2 || image->channels == 4;
+}
+
+/* Returns whether some pixel of an image is not opaque. */
+static bool is_transparent(const struct kiln_asset_image *image)
+{
+    const uint8_t *bytes = image->pixels;
+    const uint16_t *words = image->pixels;
+    const float *floats = image->pixels;
     const size_t count = (size_t)image->width * image->height;
-    for (size_t i = 0; i < count; i++) {
-        if (pixels[4 * i + 3] < 1.0f)
+    for (size_t i = 3; has_channel(image) && i < 4 * count; i += 4) {
+        if (image->type == KILN_IMAGE_U8    ? bytes[i] < 255
+            : image->type == KILN_IMAGE_U16 ? words[i] < 65535
+                                            : floats[i] < 1.0f)
             return true;
     }
     return false;
 }
 
+/* Returns whether a clip should have alpha because of an image. kiln's EXR images always have the
+ * channel and say whether it counts, since smoke may cover all of a frame. In other EXR images it
+ * counts where a pixel is not covered. */
+static bool wants_alpha(const struct kiln_asset_image *image, const struct kiln_carried *carried)
+{
+    if (image->type != KILN_IMAGE_F32 || !has_channel(image))
+        return has_channel(image);
+    return *carried->alpha ? *carried->alpha == '1' : is_transparent(image);
+}
+
 /* ---- finding the frames ---------------------------------------------------------------------- */
 
+/* Counts a frame, and warns where the names of a folder leave out numbers. */
 static bool count_frame(void *user, const struct kiln_footage_frame *frame)
 {
     struct encode *encode = user;
-    (void)frame;
+    const uint32_t gap = encode->before ? kiln_order_gap(encode->before, frame->name) : 0;
+    if (gap > 0 && !encode->begin_again &&
+        kiln_footage_kind(encode->footage) == KILN_FOOTAGE_FOLDER)
+        kiln_log_write(&encode->params->log, KILN_LOG_WARNING,
+                       "%s: %u number%s missing between %s and %s", encode->params->frames, gap,
+                       gap > 1 ? "s are" : " is", encode->before, frame->name);
+    encode->before = frame->name;
     encode->count++;
     return true;
 }
@@ -139,7 +164,7 @@ static bool open_frames(struct encode *encode, struct kiln_error *error)
     if (!encode->image)
         return false;
     encode->bits = encode->image->type == KILN_IMAGE_U16 ? 16 : 8;
-    encode->alpha = has_alpha(encode->image, &encode->carried);
+    encode->alpha = encode->begin_again || wants_alpha(encode->image, &encode->carried);
     return check_tonemap(encode, error);
 }
 
@@ -246,6 +271,20 @@ static void warn_of_depth(const struct encode *encode)
                        encode->first, encode->bits, encode->params->output, wanted);
 }
 
+/* Checks that the clip can have what is transparent in an image. If only its beginning lacks alpha,
+ * begin_again is set with the error. */
+static bool check_alpha(struct encode *encode, const struct kiln_asset_image *image,
+                        const char *path, struct kiln_error *error)
+{
+    if (encode->alpha || !is_transparent(image))
+        return true;
+    encode->begin_again = encode->takes_alpha;
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: the image is transparent in places, and %s has no alpha; expected "
+                          ".webm, .mkv, .mov, .apng or .webp",
+                          path, encode->params->output);
+}
+
 static bool open_clip(struct encode *encode, struct kiln_error *error)
 {
     const struct kiln_encode_params *params = encode->params;
@@ -264,7 +303,6 @@ static bool open_clip(struct encode *encode, struct kiln_error *error)
         .height = image->height,
         .fps_num = (uint32_t)num,
         .fps_den = (uint32_t)den,
-        .alpha = encode->alpha,
         .ranges = &range,
         .range_count = 1,
         .clip = &range,
@@ -279,8 +317,13 @@ static bool open_clip(struct encode *encode, struct kiln_error *error)
         .budget = params->budget,
         .caller = kiln_stop_caller(&encode->stop),
     };
-    const struct kiln_output_params files = kiln_output_complete(&clip, error);
-    if (!check_format(&files, error) || !claim(encode, &files, error) ||
+    struct kiln_output_params files = kiln_output_complete(&clip, error);
+    if (!check_format(&files, error))
+        return false;
+    encode->takes_alpha = kiln_video_has_alpha(&files);
+    encode->alpha = encode->alpha && encode->takes_alpha;
+    files.alpha = encode->alpha;
+    if (!check_alpha(encode, image, encode->first, error) || !claim(encode, &files, error) ||
         !kiln_resume_clear(&files, error))
         return false;
     encode->output = kiln_output_open(&files, error);
@@ -300,9 +343,9 @@ static const char *name_type(const struct kiln_asset_image *image)
     return names[image->type];
 }
 
-/* Checks that a frame has the size, type and alpha, and is of the scene and seed, of the first
- * frame. */
-static bool check_frame(const struct encode *encode, const struct kiln_asset_image *image,
+/* Checks that a frame has the size and type, and is of the scene and seed, of the first frame, and
+ * that its alpha fits into the clip. */
+static bool check_frame(struct encode *encode, const struct kiln_asset_image *image,
                         const struct kiln_carried *carried, const char *path,
                         struct kiln_error *error)
 {
@@ -311,15 +354,12 @@ static bool check_frame(const struct encode *encode, const struct kiln_asset_ima
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %u x %u pixels; %s has %u x %u", path,
                               image->width, image->height, encode->first, first->width,
                               first->height);
-    const bool alpha = has_alpha(image, carried);
-    /* An image that another program made may have alpha although every pixel of this frame is
-     * covered. */
-    const bool may_be = image->type == KILN_IMAGE_F32 && !*carried->alpha && !alpha;
-    if (image->type != first->type || (alpha != encode->alpha && !may_be))
+    if (image->type != first->type)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the image has %s a channel, %s alpha; %s has %s, %s", path,
-                              name_type(image), alpha ? "with" : "without", encode->first,
-                              name_type(first), encode->alpha ? "with alpha" : "without");
+                              "%s: the image has %s a channel; %s has %s", path, name_type(image),
+                              encode->first, name_type(first));
+    if (!check_alpha(encode, image, path, error))
+        return false;
     if (strcmp(carried->scene, encode->carried.scene) == 0 &&
         strcmp(carried->seed, encode->carried.seed) == 0)
         return true;
@@ -462,6 +502,14 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
     return kiln_output_finish(encode->output, error);
 }
 
+static void finish(struct encode *encode)
+{
+    kiln_output_close(&encode->output);
+    kiln_asset_image_destroy(&encode->image);
+    kiln_footage_close(&encode->footage);
+    kiln_threads_destroy(&encode->threads);
+}
+
 bool kiln_encode(const struct kiln_encode_params *given, struct kiln_frame_range *frames,
                  struct kiln_error *error)
 {
@@ -471,11 +519,15 @@ bool kiln_encode(const struct kiln_encode_params *given, struct kiln_frame_range
     struct encode encode = {.params = &params,
                             .stop = {params.stop, params.user, NULL, params.budget, params.cancel}};
     encode.caller = kiln_stop_caller(&encode.stop);
-    const bool ok = run(&encode, kiln_clock_seconds(), error);
+    bool ok = run(&encode, kiln_clock_seconds(), error);
+    if (!ok && encode.begin_again) {
+        finish(&encode);
+        encode.count = 0;
+        encode.before = NULL;
+        *error = (struct kiln_error){0};
+        ok = run(&encode, kiln_clock_seconds(), error);
+    }
     *frames = (struct kiln_frame_range){encode.number, encode.number + encode.count - 1};
-    kiln_output_close(&encode.output);
-    kiln_asset_image_destroy(&encode.image);
-    kiln_footage_close(&encode.footage);
-    kiln_threads_destroy(&encode.threads);
+    finish(&encode);
     return ok;
 }

@@ -80,6 +80,13 @@ static bool find(const struct kiln_output_params *params, struct kiln_error *err
            kiln_error_set(error, reason.code, "%s: %s", params->path, reason.message);
 }
 
+bool kiln_video_has_alpha(const struct kiln_output_params *params)
+{
+    struct kiln_output_params with_alpha = *params;
+    with_alpha.alpha = true;
+    return kiln_coder_pixels(&with_alpha) != AV_PIX_FMT_NONE;
+}
+
 bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error)
 {
     if (!check_size(params, error))

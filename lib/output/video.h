@@ -48,6 +48,10 @@ bool kiln_video_add_packet(void *opaque, AVPacket *packet, struct kiln_error *er
 /* The functions of a struct kiln_format whose settings are params->format->video. `opaque` is the
  * result of kiln_video_open. */
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params);
+
+/* Returns whether clips of a format may have alpha. */
+bool kiln_video_has_alpha(const struct kiln_output_params *params);
+
 bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error *error);
 void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
                       struct kiln_error *error);

@@ -44,11 +44,29 @@ $ kiln encode foreign/%d.bmp -o foreign.mp4 --fps 10
 $ ffprobe -v error -of csv=p=0 -show_entries format_tags=comment foreign.mp4
 1|kiln:version=0.2.0 kiln:frames=1-12
 
+Numbers in the names of a folder count as numbers, and a gap is told.
+
+$ kiln encode chunk -o ordered.mp4
+1|ordered.mp4: 16 frames, 5-20
+$ rm foreign/4.bmp && kiln encode foreign -o gap.mp4 --fps 10
+1|gap.mp4: 11 frames, 0-10
+2|kiln: warning: foreign: 1 number is missing between 3.bmp and 5.bmp
+
+Alpha that is opaque needs no format with alpha. A format that has alpha keeps that of any frame, also where the first
+one has none.
+
+$ mkdir solid && for i in 0 1 2 3; do ffmpeg -nostdin -loglevel error -f lavfi -i color=red:size=32x16,format=rgba -frames:v 1 -bitexact -update 1 solid/$i.png; done && kiln encode solid -o solid.mp4 --fps 10
+1|solid.mp4: 4 frames, 0-3
+$ ffmpeg -nostdin -loglevel error -y -f lavfi -i color=red:size=32x16,format=rgb24 -frames:v 1 -bitexact -update 1 solid/0.png
+$ ffmpeg -nostdin -loglevel error -y -f lavfi -i color=red@0.5:size=32x16,format=rgba -frames:v 1 -bitexact -update 1 solid/2.png
+$ kiln encode solid -o none.mp4 --fps 10
+2|solid/2.png: the image is transparent in places, and none.mp4 has no alpha; expected .webm, .mkv, .mov, .apng or .webp
+= 3
+$ kiln encode solid -o solid.apng --fps 10 && kiln compare solid/%d.png solid.apng --quiet
+1|solid.apng: 4 frames, 0-3
+
 What is no clip, with the reason. Nothing is written then.
 
-$ kiln encode chunk -o none.mp4
-2|chunk/5.png: found frame 5 where frame 21 must follow; a clip leaves out no frame, and takes the files of a folder in the order of their names
-= 3
 $ rm chunk/9.png && kiln encode chunk/%d.png -o none.mp4
 2|chunk/10.png: found frame 10 where frame 9 must follow; a clip leaves out no frame, and takes the files of a folder in the order of their names
 = 3
