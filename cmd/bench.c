@@ -180,8 +180,8 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
     params.repetitions = arguments_integer(arguments, "repeat", params.repetitions);
     params.seconds = arguments_number(arguments, "seconds", params.seconds);
     params.quick = arguments_flag(arguments, "quick");
-    const char *scratch = getenv("TMPDIR");
-    if (scratch && *scratch)
+    const char *scratch = kiln_environment("TMPDIR");
+    if (scratch)
         params.scratch = scratch;
     *quiet = arguments_flag(arguments, "quiet");
     params.progress = say;

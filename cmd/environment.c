@@ -51,13 +51,13 @@ const struct variable variables[] = {
 
 bool help_write_environment(FILE *out)
 {
-    fputs("These are the variables of the environment that kiln reads. An option of the same "
-          "purpose overrides\n"
-          "its variable. kiln-decode gets only variables that begin with KILN_ or LD_, LANG, those "
-          "of sanitizers,\n"
-          "and GLIBC_TUNABLES, which kiln sets for it.\n"
-          "\n",
-          out);
+    fputs(
+        "These are the variables of the environment that kiln reads. An empty variable counts as "
+        "one "
+        "that\nis not set. An option of the same purpose overrides its variable. kiln-decode gets "
+        "only variables\nthat begin with KILN_ or LD_, LANG, those of sanitizers, and "
+        "GLIBC_TUNABLES, which kiln sets for it.\n\n",
+        out);
     for (const struct variable *row = variables; row->name; row++) {
         fprintf(out, "  %s\n      ", row->name);
         help_print_wrapped(out, row->meaning, 6, 6);

@@ -34,7 +34,7 @@ static void check_budget(void *user)
 static int read_limits(struct kiln_limits *limits, const char *command,
                        const struct arguments *arguments)
 {
-    const char *environment = getenv("KILN_LIMITS");
+    const char *environment = kiln_environment("KILN_LIMITS");
     const char *text = arguments_text(arguments, "limits", NULL);
     const double timeout_s = arguments_number(arguments, "timeout", 0);
     struct kiln_error error = {0};

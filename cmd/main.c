@@ -88,7 +88,7 @@ static void occupy_standard_streams(void)
 /* Makes a job of --batch end with the process that started it, even if that process is killed. */
 static void end_with_parent(void)
 {
-    const char *parent = getenv("KILN_BATCH_PROCESS");
+    const char *parent = kiln_environment("KILN_BATCH_PROCESS");
     uint64_t process;
     if (!parent || !kiln_text_to_uint64(parent, &process) || process != (uint64_t)getppid())
         return;

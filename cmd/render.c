@@ -387,7 +387,7 @@ static void print_shard(const struct render *render)
         return;
     printf("shard %u of %u", shard->index + 1, shard->count);
     if (shard->variable)
-        printf(", by %s=%s", shard->variable, getenv(shard->variable));
+        printf(", by %s=%s", shard->variable, kiln_environment(shard->variable));
     printf("\n");
     fflush(stdout);
 }

@@ -42,7 +42,7 @@ static int report_place(const struct kiln_error *error)
 /* Returns the least level of messages that are printed, by KILN_LOG. */
 static enum kiln_log_level least_level(void)
 {
-    const char *level = getenv("KILN_LOG"); /* NOLINT(concurrency-mt-unsafe): only read */
+    const char *level = kiln_environment("KILN_LOG");
     if (level && strcmp(level, "debug") == 0)
         return KILN_LOG_DEBUG;
     return level && strcmp(level, "info") == 0 ? KILN_LOG_INFO : KILN_LOG_WARNING;

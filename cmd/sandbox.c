@@ -102,9 +102,9 @@ static void free_allowed_paths(struct allowed_paths *allowed)
 static bool read_environment(enum mode *mode)
 {
     static const char *const modes[] = {"on", "require", "off"};
-    const char *text = getenv("KILN_SANDBOX");
+    const char *text = kiln_environment("KILN_SANDBOX");
     *mode = MODE_OFF;
-    if (!text || !*text)
+    if (!text)
         return true;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
         if (strcmp(text, modes[i]) == 0) {

@@ -28,8 +28,8 @@ enum { SCHEDULER_COUNT = sizeof schedulers / sizeof *schedulers };
  * or the exit code after reporting. */
 static int read_variable(const char *name, uint64_t *value, bool *is_there)
 {
-    const char *text = name ? getenv(name) : NULL;
-    *is_there = text && *text;
+    const char *text = name ? kiln_environment(name) : NULL;
+    *is_there = text != NULL;
     if (!*is_there || kiln_text_to_uint64(text, value))
         return 0;
     return report(KILN_USAGE, "render: --shard: %s: found '%s', expected a whole number", name,
@@ -40,8 +40,8 @@ static int read_variable(const char *name, uint64_t *value, bool *is_there)
  * array. */
 static bool is_scheduler_active(const struct scheduler *scheduler)
 {
-    const char *id = getenv(scheduler->id);
-    return id && *id && strcmp(id, "undefined") != 0;
+    const char *id = kiln_environment(scheduler->id);
+    return id && strcmp(id, "undefined") != 0;
 }
 
 /* Reads the number of the task, from 0, and the number of tasks, which is 0 if the scheduler does

@@ -103,8 +103,8 @@ static int run(const struct arguments *arguments)
     params.renders = arguments_integer(arguments, "repeat", params.renders);
     params.margin = arguments_number(arguments, "margin", params.margin);
     params.write = arguments_flag(arguments, "write");
-    const char *scratch = getenv("TMPDIR");
-    params.scratch = scratch && *scratch ? scratch : params.scratch;
+    const char *scratch = kiln_environment("TMPDIR");
+    params.scratch = scratch ? scratch : params.scratch;
     params.render = print_render;
     params.stop = signals_wants_stop;
     params.user = &quiet;

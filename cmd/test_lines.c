@@ -29,8 +29,8 @@ static const char *colour_of(enum kiln_test_status status)
 
 static bool wants_colour(FILE *out)
 {
-    const char *term = getenv("TERM"), *refused = getenv("NO_COLOR");
-    return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !(refused && *refused);
+    const char *term = kiln_environment("TERM"), *refused = kiln_environment("NO_COLOR");
+    return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !refused;
 }
 
 /* Counts the bytes of UTF-8 that continue a character, since they take no column. */

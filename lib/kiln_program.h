@@ -145,6 +145,9 @@ bool kiln_text_file_close(struct kiln_text_file **text, bool keep, struct kiln_e
 bool kiln_text_to_double(const char *text, double *value);
 bool kiln_text_to_uint64(const char *text, uint64_t *value);
 
+/* Returns the value of a variable of the environment; NULL where it is not set or empty. */
+const char *kiln_environment(const char *name);
+
 /* Reads a whole text as a time: seconds, or a number with one of the units ms, s, min and h. */
 bool kiln_text_to_seconds(const char *text, double *seconds);
 

@@ -16,6 +16,7 @@
 #include "base/file.h"
 #include "base/file_in.h"
 #include "base/temporary.h"
+#include "kiln_program.h"
 
 #define MAGIC "kiln-cache 2 "
 
@@ -24,8 +25,8 @@ enum { HEADER = sizeof MAGIC - 1 + 8 + 1 };
 /* Writes the path of a folder of the cache. */
 static bool find_folder(char folder[KILN_PATH_SIZE], const char *name)
 {
-    const char *cache = getenv("XDG_CACHE_HOME"); /* NOLINT(concurrency-mt-unsafe): only read */
-    const char *home = getenv("HOME");            /* NOLINT(concurrency-mt-unsafe): only read */
+    const char *cache = kiln_environment("XDG_CACHE_HOME");
+    const char *home = kiln_environment("HOME");
     int length = -1;
     if (cache && cache[0] == '/')
         length = snprintf(folder, KILN_PATH_SIZE, "%s/%s", cache, name);

@@ -6,10 +6,28 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
+
+bool kiln_file_is_lfs_pointer(int file)
+{
+    static const char start[] = "version https://git-lfs.github.com/spec/v";
+    char found[sizeof start - 1];
+    return pread(file, found, sizeof found, 0) == (ssize_t)sizeof found &&
+           memcmp(found, start, sizeof found) == 0;
+}
+
+bool kiln_path_is_lfs_pointer(const char *path)
+{
+    const int file = open(path, KILN_FILE_FLAGS);
+    const bool is = file >= 0 && kiln_file_is_lfs_pointer(file);
+    if (file >= 0)
+        close(file);
+    return is;
+}
 
 bool kiln_file_check(int file, const char *path, const char *what, const char *allowed,
                      size_t *size, struct kiln_error *error)
@@ -19,10 +37,13 @@ bool kiln_file_check(int file, const char *path, const char *what, const char *a
         return kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be examined", path,
                                     what);
     *size = (size_t)status.st_size;
-    return S_ISREG(status.st_mode) ||
+    if (!S_ISREG(status.st_mode))
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the path is not a file but a %s; allowed are %s files", path,
+                              S_ISDIR(status.st_mode) ? "folder" : "device or pipe", allowed);
+    return !kiln_file_is_lfs_pointer(file) ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: the path is not a file but a %s; allowed are %s files", path,
-                          S_ISDIR(status.st_mode) ? "folder" : "device or pipe", allowed);
+                          "%s: the %s is a Git LFS pointer: run git lfs pull", path, what);
 }
 
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,

@@ -29,11 +29,18 @@ int kiln_file_open(const char *path, const char *what, const char *allowed, size
 unsigned char *kiln_file_read(const char *path, const char *what, const char *allowed, size_t limit,
                               size_t *size, struct kiln_error *error);
 
+/* Returns whether an open file is a pointer of Git LFS, which stands for a file that was not
+ * fetched (git-lfs, docs/spec.md). */
+bool kiln_file_is_lfs_pointer(int file);
+
+/* The same of a path; false also when it cannot be opened. */
+bool kiln_path_is_lfs_pointer(const char *path);
+
 /* These are the steps of kiln_file_read, for a caller that opens the file in its own way and closes
  * it. The loader is one: it opens files only below a given folder.
  *
- * kiln_file_check checks that a descriptor is of a regular file and finds its size. It returns
- * false with KILN_IO or KILN_INVALID_INPUT. */
+ * kiln_file_check checks that a descriptor is of a regular file that is no pointer of Git LFS, and
+ * finds its size. It returns false with KILN_IO or KILN_INVALID_INPUT. */
 bool kiln_file_check(int file, const char *path, const char *what, const char *allowed,
                      size_t *size, struct kiln_error *error);
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "kiln_program.h"
 
 const char *kiln_simd_name(enum kiln_simd simd)
 {
@@ -57,7 +58,7 @@ enum kiln_simd kiln_simd_narrowest(void)
 
 bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error)
 {
-    const char *wanted = getenv("KILN_SIMD"); /* NOLINT(concurrency-mt-unsafe): only read */
+    const char *wanted = kiln_environment("KILN_SIMD");
     struct kiln_text names = {0};
     bool found = false;
     for (int i = 0; i < KILN_SIMD_COUNT; i++) {

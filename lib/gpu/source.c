@@ -15,6 +15,7 @@
 
 #include "base/embedded.h"
 #include "base/error.h"
+#include "kiln_program.h"
 
 enum { MAX_DEPTH = 32, MAX_FILE_SIZE = 1 << 20 };
 
@@ -81,8 +82,8 @@ static const char *find_text(const struct open_file *open_file, char **owned,
 {
     *owned = NULL;
     if (is_safe_path(open_file->path)) {
-        const char *dir = getenv("KILN_SHADER_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
-        if (dir && dir[0] != '\0' && !read_override(dir, open_file->path, owned, error))
+        const char *dir = kiln_environment("KILN_SHADER_DIR");
+        if (dir && !read_override(dir, open_file->path, owned, error))
             return NULL;
         const char *text =
             *owned ? *owned : kiln_embedded_find(kiln_embedded_shaders, open_file->path);

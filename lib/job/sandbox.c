@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/sized.h"
 #include "base/temporary.h"
+#include "kiln_program.h"
 
 enum { MOST_PLACES = 256 };
 
@@ -351,7 +352,7 @@ bool kiln_sandbox_enter(const struct kiln_sandbox_params *given, struct kiln_err
 {
     struct kiln_sandbox_params taken = kiln_sandbox_defaults();
     const struct kiln_sandbox_params *params = &taken;
-    const char *path = getenv("LD_LIBRARY_PATH"); /* NOLINT(concurrency-mt-unsafe): only read */
+    const char *path = kiln_environment("LD_LIBRARY_PATH");
     if (!kiln_sized_take(&taken, given, "kiln_sandbox_params", error) ||
         !check_support(params, error))
         return false;

@@ -15,6 +15,7 @@
 #include "asset/image/image.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_in.h"
 #include "base/hash.h"
 #include "base/temporary.h"
 
@@ -297,6 +298,9 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error)
         ok = kiln_error_set_errno(error, KILN_IO, errno, "%s", from);
     else if (!S_ISREG(status.st_mode))
         ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is not a regular file", from);
+    if (ok && kiln_path_is_lfs_pointer(to))
+        ok = kiln_error_set(error, KILN_INVALID_INPUT,
+                            "%s: the file is a Git LFS pointer: run git lfs pull", to);
     ok = ok && kiln_make_parent_folders(to, error) && kiln_target_check(to, true, error) &&
          kiln_temporary_open(&target, to, error);
     if (ok) {

@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$1"
 kiln=$2
 tables="cmd/shard.c"
-callers="cmd/shard.c cmd/render.c" # files that call getenv with a name from a table
+callers="cmd/shard.c cmd/render.c lib/base/environment.c" # files that call getenv with a name from a table
 failed=0
 
 sources() { find cmd lib decode -name '*.[ch]' -not -path cmd/environment.c; }
@@ -17,7 +17,7 @@ sources() { find cmd lib decode -name '*.[ch]' -not -path cmd/environment.c; }
 # entries of the tables.
 read_names()
 {
-    sources | xargs grep -ohE '\b(secure_)?getenv\("[^"]*"\)' | sed 's/.*("//; s/").*//'
+    sources | xargs grep -ohE '\b((secure_)?getenv|kiln_environment)\("[^"]*"\)' | sed 's/.*("//; s/").*//'
     grep -ohE '"[A-Z]+(_[A-Z]+)+"' $tables | tr -d '"'
 }
 
@@ -26,7 +26,7 @@ while IFS=: read -r file line text; do
         echo "$file:$line: reads a variable whose name is no literal:$text"
         failed=1
     fi
-done < <(sources | xargs grep -nE '\b(secure_)?getenv\([^")]')
+done < <(sources | xargs grep -nE '\b((secure_)?getenv|kiln_environment)\([^")]' | grep -v 'kiln_environment(const char')
 
 said=$("$kiln" help environment | sed -nE 's/^  ([A-Z_0-9]+)$/\1/p' | sort -u)
 found=$(read_names | sort -u)

@@ -22,6 +22,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "kiln_program.h"
 
 /* Limits of waiting. A process that sleeps takes no processor time, so waiting is limited in real
  * time, too. */
@@ -77,8 +78,8 @@ bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
     static const char *const subfolders[] = {"libexec/kiln/", "../libexec/kiln/",
                                              "../../libexec/kiln/"};
     char folder[KILN_PATH_SIZE];
-    const char *set = getenv("KILN_LIBEXEC_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
-    if (set && *set)
+    const char *set = kiln_environment("KILN_LIBEXEC_DIR");
+    if (set)
         return put_path(path, set, "") ||
                kiln_error_set(error, KILN_DEVICE_FAILED,
                               "%s: the program that decodes pictures, videos and meshes is missing "

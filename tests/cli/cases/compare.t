@@ -124,6 +124,10 @@ $ kiln compare grey.png clear.png
 $ kiln compare grey.png nowhere.png
 2|nowhere.png: No such file or directory
 = 3
+$ printf 'version https://git-lfs.github.com/spec/v1\noid sha256:%064d\nsize 12345\n' 7 >pointer.png; kiln compare grey.png pointer.png
+1|pointer.png against grey.png: unreadable
+2|pointer.png: the image is a Git LFS pointer: run git lfs pull
+= 3
 $ : >empty.png
 $ kiln compare grey.png empty.png
 1|empty.png against grey.png: unreadable
