@@ -45,7 +45,7 @@ static enum kiln_code interleave_float(struct conversion *conversion)
     }
     return finite ? KILN_OK
                   : fail(conversion, KILN_INVALID_INPUT,
-                         "the EXR image is cut short or has pixels that are not finite numbers");
+                         "the image is cut short, or has pixels that are not finite numbers");
 }
 
 /* Sets the colour matrix and range of a frame that is not RGB. */

@@ -1,29 +1,17 @@
-/* This file decodes one layer of an OpenEXR file by OpenEXR's C core. decode/main.c calls
- * decode_exr once a request of kind KILN_DECODE_EXR, in the process kiln-decode, which has confined
- * itself. choose_kind in lib/asset/image/image.c decides which files come here: FFmpeg decodes the
- * layer "beauty" of tiled files instead (picture.c).
+/* This file makes a picture of one layer of an OpenEXR file: that of the display window, in light
+ * of sRGB's primaries. decode/main.c calls decode_exr once for a request, in the process
+ * kiln-decode, which has confined itself. A confined process can open no file, so OpenEXR reads the
+ * file from memory, through on_read.
  *
- * A confined process can open no file, so OpenEXR reads the file from memory, through on_read. Each
- * chunk of scan lines is decoded straight into the picture, as four floats a pixel.
- *
- * The file may be malicious, so the picture's size is checked before memory is taken for the
- * pixels. Only parts in scan lines are read, and only channels of full resolution: read_pixels can
- * read no others. */
-#include <openexr.h>
+ * The file may be malicious, so the sizes of both windows are checked before memory is taken for
+ * pixels. */
+#include "exr.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "decode.h"
-
-struct reading {
-    struct decode_picture *picture;
-    exr_context_t file;
-    int part;
-    const char *channels[4]; /* names in the file for R, G, B and A; NULL: the layer lacks it */
-    int32_t left, top;       /* first pixel of the data window, which need not be at 0 */
-    struct kiln_asset_image *image;
-};
 
 /* Ignores OpenEXR's messages. The code that its functions return says enough, and without a handler
  * the library would print. */
@@ -39,11 +27,11 @@ static int64_t on_read(exr_const_context_t context, void *opaque, void *buffer, 
 {
     (void)context;
     (void)report;
-    const struct reading *reading = opaque;
+    const struct exr_reading *reading = opaque;
     if (offset > reading->picture->size)
         return -1;
-    size_t left = reading->picture->size - (size_t)offset;
-    size_t taken = count < left ? (size_t)count : left;
+    const size_t left = reading->picture->size - (size_t)offset;
+    const size_t taken = count < left ? (size_t)count : left;
     memcpy(buffer, reading->picture->bytes + offset, taken);
     return (int64_t)taken;
 }
@@ -51,22 +39,20 @@ static int64_t on_read(exr_const_context_t context, void *opaque, void *buffer, 
 static int64_t on_size(exr_const_context_t context, void *opaque)
 {
     (void)context;
-    return (int64_t)((const struct reading *)opaque)->picture->size;
+    return (int64_t)((const struct exr_reading *)opaque)->picture->size;
 }
 
-static exr_result_t open_file(struct reading *reading)
+static exr_result_t open_file(struct exr_reading *reading)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.user_data = reading;
     initializer.error_handler_fn = on_failure;
     initializer.read_fn = on_read;
     initializer.size_fn = on_size;
-    initializer.max_image_width = KILN_MAX_IMAGE_EDGE;
-    initializer.max_image_height = KILN_MAX_IMAGE_EDGE;
     return exr_start_read(&reading->file, "an EXR image", &initializer);
 }
 
-static bool fail(const struct reading *reading, exr_result_t code)
+bool decode_exr_fail(const struct exr_reading *reading, exr_result_t code)
 {
     if (code == EXR_ERR_OUT_OF_MEMORY)
         return decode_out_of_memory(reading->picture->error);
@@ -75,187 +61,231 @@ static bool fail(const struct reading *reading, exr_result_t code)
                           exr_get_default_error_message(code));
 }
 
-/* ---- The layer ---------------------------------------------------------------------------- */
+/* ---- windows --------------------------------------------------------------------------------- */
 
-/* Returns which component of the layer a channel holds: 0 to 3 for R, G, B and A, or -1 if it is
- * not of the layer. Y, luminance, and Z, depth, are the one component of a grey layer: 0. */
-static int component_of(const char *channel, const char *layer)
+static bool take_window(struct exr_reading *reading, const exr_attr_box2i_t *window,
+                        struct exr_box *box)
 {
-    static const char names[] = "RGBAYZ";
-    bool beauty = strcmp(layer, "beauty") == 0, depth = strcmp(layer, "depth") == 0;
-    const char *last = channel;
-    if (!beauty && !(depth && strcmp(channel, "Z") == 0)) {
-        size_t length = strlen(layer);
-        if (strncmp(channel, layer, length) != 0 || channel[length] != '.')
-            return -1;
-        last = channel + length + 1;
-    }
-    const char *found = strlen(last) == 1 ? strchr(names, *last) : NULL;
-    if (!found || (beauty && *last == 'Z'))
-        return -1;
-    return *last == 'Y' || *last == 'Z' ? 0 : (int)(found - names);
-}
-
-/* Finds the layer's channels in a part. Returns whether it has them: one, or all three colours.
- * Alpha may be missing. */
-static bool find_channels(struct reading *reading, const exr_attr_chlist_t *list)
-{
-    memset(reading->channels, 0, sizeof reading->channels);
-    for (int i = 0; i < list->num_channels; i++) {
-        const exr_attr_chlist_entry_t *entry = &list->entries[i];
-        int component = component_of(entry->name.str, reading->picture->layer);
-        if (component >= 0 && entry->x_sampling == 1 && entry->y_sampling == 1)
-            reading->channels[component] = entry->name.str;
-    }
-    bool colour = reading->channels[1] && reading->channels[2];
-    bool any = reading->channels[1] || reading->channels[2];
-    return reading->channels[0] && colour == any;
-}
-
-/* Lists the channels of the file for an error: "R, G, B, fire.R, ..." */
-static void list_channels(const struct reading *reading, int parts, char *text, size_t size)
-{
-    size_t length = 0;
-    for (int part = 0; part < parts; part++) {
-        const exr_attr_chlist_t *list = NULL;
-        if (exr_get_channels(reading->file, part, &list) != EXR_ERR_SUCCESS)
-            continue;
-        for (int i = 0; i < list->num_channels && length + 1 < size; i++) {
-            int written = snprintf(text + length, size - length, "%s%s", length ? ", " : "",
-                                   list->entries[i].name.str);
-            length += written > 0 ? (size_t)written : 0;
-        }
-    }
-}
-
-static bool find_part(struct reading *reading)
-{
-    int parts = 0;
-    exr_result_t code = exr_get_count(reading->file, &parts);
-    for (int part = 0; code == EXR_ERR_SUCCESS && part < parts; part++) {
-        const exr_attr_chlist_t *list = NULL;
-        exr_storage_t storage;
-        code = exr_get_storage(reading->file, part, &storage);
-        if (code == EXR_ERR_SUCCESS)
-            code = exr_get_channels(reading->file, part, &list);
-        if (code != EXR_ERR_SUCCESS || storage != EXR_STORAGE_SCANLINE)
-            continue;
-        reading->part = part;
-        if (find_channels(reading, list))
-            return true;
-    }
-    if (code != EXR_ERR_SUCCESS)
-        return fail(reading, code);
-    char found[256] = "none";
-    list_channels(reading, parts, found, sizeof found);
-    return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
-                          "no layer '%s' whose lines have full size; the file has the channels %s",
-                          reading->picture->layer, found);
-}
-
-static bool make_image(struct reading *reading)
-{
-    exr_attr_box2i_t window;
-    exr_result_t code = exr_get_data_window(reading->file, reading->part, &window);
-    if (code != EXR_ERR_SUCCESS)
-        return fail(reading, code);
-    int64_t width = (int64_t)window.max.x - window.min.x + 1;
-    int64_t height = (int64_t)window.max.y - window.min.y + 1;
+    const int64_t width = (int64_t)window->max.x - window->min.x + 1;
+    const int64_t height = (int64_t)window->max.y - window->min.y + 1;
     if (!decode_allows_size(reading->picture, "EXR", width, height))
         return false;
-    struct kiln_asset_image *image = calloc(1, sizeof *image);
-    float *pixels = image ? malloc((size_t)(width * height) * 4 * sizeof *pixels) : NULL;
-    reading->image = image;
-    if (!pixels)
-        return fail(reading, EXR_ERR_OUT_OF_MEMORY);
-    *image = (struct kiln_asset_image){.width = (uint32_t)width,
-                                       .height = (uint32_t)height,
-                                       .channels = reading->channels[1] ? 3 : 1,
-                                       .type = KILN_IMAGE_F32,
-                                       .premultiplied = true,
-                                       .pixels = pixels};
-    image->channels += reading->channels[3] != NULL;
-    reading->left = window.min.x;
-    reading->top = window.min.y;
+    *box = (struct exr_box){window->min.x, window->min.y, (uint32_t)width, (uint32_t)height};
     return true;
 }
 
-/* ---- The pixels --------------------------------------------------------------------------- */
-
-static void set_targets(const struct reading *reading, exr_decode_pipeline_t *pipeline, uint32_t y)
+/* Takes the sizes of both windows. The display window comes last, since its size is the picture's.
+ */
+static bool take_windows(struct exr_reading *reading)
 {
-    const struct kiln_asset_image *image = reading->image;
-    float *row = (float *)image->pixels + (size_t)y * image->width * 4;
-    for (int i = 0; i < pipeline->channel_count; i++) {
-        exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        channel->decode_to_ptr = NULL;
-        for (int c = 0; c < 4; c++) {
-            if (!reading->channels[c] || strcmp(channel->channel_name, reading->channels[c]) != 0)
-                continue;
-            channel->decode_to_ptr = (uint8_t *)(row + c);
-            channel->user_data_type = EXR_PIXEL_FLOAT;
-            channel->user_bytes_per_element = sizeof(float);
-            channel->user_pixel_stride = 4 * sizeof(float);
-            channel->user_line_stride = (int32_t)(image->width * sizeof(float[4]));
-        }
+    exr_attr_box2i_t data, display;
+    exr_result_t code = exr_get_data_window(reading->file, reading->part, &data);
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_get_display_window(reading->file, reading->part, &display);
+    if (code != EXR_ERR_SUCCESS)
+        return decode_exr_fail(reading, code);
+    if (!take_window(reading, &data, &reading->data) ||
+        !take_window(reading, &display, &reading->display))
+        return false;
+    /* OpenEXR allows no other windows for samples of two by two pixels. */
+    const struct exr_box *box = &reading->data;
+    const bool odd = ((uint32_t)box->left | (uint32_t)box->top | box->width | box->height) & 1u;
+    return reading->layer.sampling == 1 || !odd || decode_exr_fail(reading, EXR_ERR_INVALID_ATTR);
+}
+
+static struct kiln_asset_image *make_image(const struct exr_reading *reading,
+                                           const struct exr_box *box)
+{
+    const struct exr_layer *layer = &reading->layer;
+    struct kiln_asset_image *image = calloc(1, sizeof *image);
+    float *pixels = image ? calloc((size_t)box->width * box->height, sizeof(float[4])) : NULL;
+    if (!pixels) {
+        decode_out_of_memory(reading->picture->error);
+        free(image);
+        return NULL;
+    }
+    const bool alpha = layer->names[EXR_ALPHA] != NULL;
+    *image = (struct kiln_asset_image){.width = box->width,
+                                       .height = box->height,
+                                       .channels = (layer->grey ? 1u : 3u) + alpha,
+                                       .type = KILN_IMAGE_F32,
+                                       .premultiplied = alpha,
+                                       .pixels = pixels};
+    return image;
+}
+
+static bool make_planes(struct exr_reading *reading)
+{
+    const uint32_t by = (uint32_t)reading->layer.sampling;
+    reading->image = make_image(reading, &reading->data);
+    if (!reading->image || !reading->layer.names[EXR_RY])
+        return reading->image != NULL;
+    reading->chroma_width = reading->data.width / by;
+    reading->chroma_height = reading->data.height / by;
+    for (int i = 0; i < 2; i++) {
+        reading->chroma[i] =
+            calloc((size_t)reading->chroma_width * reading->chroma_height, sizeof(float));
+        if (!reading->chroma[i])
+            return decode_out_of_memory(reading->picture->error);
+    }
+    return true;
+}
+
+static bool same_box(const struct exr_box *a, const struct exr_box *b)
+{
+    return a->left == b->left && a->top == b->top && a->width == b->width && a->height == b->height;
+}
+
+static void make_opaque(struct kiln_asset_image *image)
+{
+    float *pixel = image->pixels;
+    const size_t pixels = (size_t)image->width * image->height;
+    for (size_t i = 0; i < pixels; i++)
+        pixel[4 * i + 3] = 1.0f;
+}
+
+/* Copies what the display window shows of the data window, for which `whole` has room. */
+static void copy_shown(const struct exr_reading *reading, struct kiln_asset_image *whole)
+{
+    const struct exr_box *data = &reading->data, *display = &reading->display;
+    const int64_t x = (int64_t)data->left - display->left, y = (int64_t)data->top - display->top;
+    const int64_t begin = x > 0 ? x : 0;
+    const int64_t end = x + data->width < display->width ? x + data->width : display->width;
+    const float *from = reading->image->pixels;
+    float *to = whole->pixels;
+    for (int64_t row = 0; row < data->height && begin < end; row++) {
+        const int64_t line = y + row;
+        if (line >= 0 && line < display->height)
+            memcpy(to + (line * display->width + begin) * 4,
+                   from + (row * data->width + begin - x) * 4,
+                   (size_t)(end - begin) * sizeof(float[4]));
     }
 }
 
-static exr_result_t read_chunk(const struct reading *reading, uint32_t y,
-                               exr_decode_pipeline_t *pipeline, bool first)
+/* Makes the picture of the display window. It is black, and transparent if the layer has alpha,
+ * where the file has no data. */
+static bool show_window(struct exr_reading *reading)
 {
-    exr_chunk_info_t chunk;
-    exr_result_t code = exr_read_scanline_chunk_info(reading->file, reading->part,
-                                                     reading->top + (int32_t)y, &chunk);
-    if (code == EXR_ERR_SUCCESS)
-        code = first ? exr_decoding_initialize(reading->file, reading->part, &chunk, pipeline)
-                     : exr_decoding_update(reading->file, reading->part, &chunk, pipeline);
-    if (code != EXR_ERR_SUCCESS)
-        return code;
-    set_targets(reading, pipeline, y);
-    if (first)
-        code = exr_decoding_choose_default_routines(reading->file, reading->part, pipeline);
-    return code == EXR_ERR_SUCCESS ? exr_decoding_run(reading->file, reading->part, pipeline)
-                                   : code;
+    if (same_box(&reading->data, &reading->display))
+        return true;
+    struct kiln_asset_image *whole = make_image(reading, &reading->display);
+    if (!whole)
+        return false;
+    if (!reading->layer.names[EXR_ALPHA])
+        make_opaque(whole);
+    copy_shown(reading, whole);
+    kiln_asset_image_destroy(&reading->image);
+    reading->image = whole;
+    return true;
 }
+
+/* ---- colours --------------------------------------------------------------------------------- */
 
 /* Fills the missing components: grey is copied to all colours, and missing alpha is opaque. */
-static void fill_components(const struct reading *reading)
+static void fill_components(const struct exr_reading *reading)
 {
     float *pixel = reading->image->pixels;
-    size_t pixels = (size_t)reading->image->width * reading->image->height;
-    for (size_t i = 0; i < pixels; i++, pixel += 4) {
-        if (!reading->channels[1])
-            pixel[1] = pixel[2] = pixel[0];
-        if (!reading->channels[3])
-            pixel[3] = 1.0f;
-    }
+    const size_t pixels = (size_t)reading->image->width * reading->image->height;
+    for (size_t i = 0; reading->layer.grey && i < pixels; i++)
+        pixel[4 * i + 1] = pixel[4 * i + 2] = pixel[4 * i];
+    if (!reading->layer.names[EXR_ALPHA])
+        make_opaque(reading->image);
 }
 
-static bool read_pixels(const struct reading *reading)
+/* Returns whether primaries are Rec. 709 up to the rounding of writers. */
+static bool is_rec709(const struct kiln_primaries *primaries)
 {
-    int32_t lines = 0;
-    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
-    exr_result_t code = exr_get_scanlines_per_chunk(reading->file, reading->part, &lines);
-    for (uint32_t y = 0; code == EXR_ERR_SUCCESS && lines > 0 && y < reading->image->height;
-         y += (uint32_t)lines)
-        code = read_chunk(reading, y, &pipeline, y == 0);
-    exr_decoding_destroy(reading->file, &pipeline);
-    if (code != EXR_ERR_SUCCESS || lines < 1)
-        return fail(reading, code);
-    fill_components(reading);
+    static const double most = 1e-4;
+    bool near = true;
+    for (int i = 0; i < 2; i++)
+        near = near && fabs(primaries->red[i] - kiln_rec709.red[i]) < most &&
+               fabs(primaries->green[i] - kiln_rec709.green[i]) < most &&
+               fabs(primaries->blue[i] - kiln_rec709.blue[i]) < most &&
+               fabs(primaries->white[i] - kiln_rec709.white[i]) < most;
+    return near;
+}
+
+/* Finds the primaries of the part. */
+static bool find_primaries(const struct exr_reading *reading, struct kiln_primaries *primaries)
+{
+    exr_attr_chromaticities_t found;
+    *primaries = kiln_rec709;
+    const exr_result_t code =
+        exr_attr_get_chromaticities(reading->file, reading->part, "chromaticities", &found);
+    if (code == EXR_ERR_NO_ATTR_BY_NAME)
+        return true;
+    if (code != EXR_ERR_SUCCESS)
+        return decode_exr_fail(reading, code);
+    *primaries = (struct kiln_primaries){{(double)found.red_x, (double)found.red_y},
+                                         {(double)found.green_x, (double)found.green_y},
+                                         {(double)found.blue_x, (double)found.blue_y},
+                                         {(double)found.white_x, (double)found.white_y}};
+    return true;
+}
+
+/* Turns the numbers of a layer of colours into light of sRGB's primaries. */
+static bool show_colors(struct exr_reading *reading)
+{
+    const size_t pixels = (size_t)reading->data.width * reading->data.height;
+    const bool chroma = reading->layer.names[EXR_RY] != NULL;
+    struct kiln_primaries primaries;
+    double weights[3], to_srgb[3][3];
+    if (!chroma && !reading->layer.is_color)
+        return true;
+    if (!find_primaries(reading, &primaries))
+        return false;
+    if (!kiln_primaries_luminance(&primaries, weights) ||
+        !kiln_primaries_to_srgb(&primaries, to_srgb))
+        return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                              "the chromaticities of the EXR image are no triangle around white");
+    if (chroma && !decode_exr_chroma(reading, weights))
+        return false;
+    if (reading->layer.is_color && !reading->picture->raw && !is_rec709(&primaries))
+        kiln_light_convert(to_srgb, reading->image->pixels, pixels);
+    return true;
+}
+
+/* ---- the file -------------------------------------------------------------------------------- */
+
+/* Refuses by name what OpenEXR's C core does not decode. */
+static bool check_storage(const struct exr_reading *reading)
+{
+    exr_storage_t storage;
+    exr_compression_t compression;
+    exr_result_t code = exr_get_storage(reading->file, reading->part, &storage);
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_get_compression(reading->file, reading->part, &compression);
+    if (code != EXR_ERR_SUCCESS)
+        return decode_exr_fail(reading, code);
+    if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED)
+        return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                              "the layer '%s' of the EXR image is deep, which cannot be read; "
+                              "flatten it",
+                              reading->picture->layer);
+    if (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB)
+        return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                              "the EXR image is compressed by %s, which cannot be read; allowed "
+                              "are none, RLE, ZIPS, ZIP, PIZ, PXR24, B44 and B44A",
+                              compression == EXR_COMPRESSION_DWAA ? "DWAA" : "DWAB");
     return true;
 }
 
 struct kiln_asset_image *decode_exr(struct decode_picture *picture)
 {
-    struct reading reading = {.picture = picture};
-    exr_result_t code = open_file(&reading);
-    bool ok = code == EXR_ERR_SUCCESS
-                  ? find_part(&reading) && make_image(&reading) && read_pixels(&reading)
-                  : fail(&reading, code);
+    struct exr_reading reading = {.picture = picture};
+    const exr_result_t code = open_file(&reading);
+    bool ok = code == EXR_ERR_SUCCESS || decode_exr_fail(&reading, code);
+    ok = ok && decode_exr_find_layer(&reading) && check_storage(&reading) &&
+         take_windows(&reading) && make_planes(&reading) && decode_exr_pixels(&reading) &&
+         show_colors(&reading);
+    if (ok) {
+        fill_components(&reading);
+        ok = show_window(&reading);
+    }
     if (reading.file)
         exr_finish(&reading.file);
+    for (int i = 0; i < 2; i++)
+        free(reading.chroma[i]);
     if (!ok)
         kiln_asset_image_destroy(&reading.image);
     return reading.image;

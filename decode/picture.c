@@ -18,7 +18,6 @@ static const struct codec codecs[] = {
     [KILN_PICTURE_PNG] = {AV_CODEC_ID_PNG, "PNG"},
     [KILN_PICTURE_BMP] = {AV_CODEC_ID_BMP, "BMP"},
     [KILN_PICTURE_GIF] = {AV_CODEC_ID_GIF, "GIF"},
-    [KILN_PICTURE_EXR] = {AV_CODEC_ID_EXR, "EXR"},
 };
 
 /* The state of one decoding, which the decoder's get_buffer finds in its opaque pointer. */
@@ -75,14 +74,7 @@ static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
         decoding->reported = true;
         return AVERROR(EINVAL);
     }
-    int status = kiln_ff.avcodec_default_get_buffer2(decoder, frame, flags);
-    /* The EXR decoder skips missing and broken blocks. NaN in their pixels makes avframe.c find
-     * them. */
-    if (status >= 0 && decoder->codec_id == AV_CODEC_ID_EXR) {
-        for (int i = 0; i < AV_NUM_DATA_POINTERS && frame->buf[i]; i++)
-            memset(frame->buf[i]->data, 0xff, frame->buf[i]->size);
-    }
-    return status;
+    return kiln_ff.avcodec_default_get_buffer2(decoder, frame, flags);
 }
 
 static bool open_decoder(struct decoding *decoding)

@@ -4,6 +4,7 @@
 #include "asset/image/color.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "asset/image/linear.h"
 #include "shared/exact.h"
@@ -107,21 +108,24 @@ static bool adapt_to_d50(const double white[3], double adapt[3][3])
     return true;
 }
 
-/* Finds XYZ for the white D50 by light of some primaries. */
-static bool find_columns(const struct kiln_primaries *primaries, double columns[3][3])
+/* Finds XYZ, for their own white, by light of some primaries. */
+static bool find_own_columns(const struct kiln_primaries *primaries, double white[3],
+                             double own[3][3])
 {
     const double *const places[3] = {primaries->red, primaries->green, primaries->blue};
     const double *w = primaries->white;
-    double own[3][3], inverse[3][3], adapt[3][3];
+    double inverse[3][3];
     if (!(w[1] > 1e-6))
         return false;
-    const double white[3] = {w[0] / w[1], 1.0, (1.0 - w[0] - w[1]) / w[1]};
+    white[0] = w[0] / w[1];
+    white[1] = 1.0;
+    white[2] = (1.0 - w[0] - w[1]) / w[1];
     for (int i = 0; i < 3; i++) {
         own[0][i] = places[i][0];
         own[1][i] = places[i][1];
         own[2][i] = 1.0 - places[i][0] - places[i][1];
     }
-    if (!invert(own, inverse) || !adapt_to_d50(white, adapt))
+    if (!invert(own, inverse))
         return false;
     for (int i = 0; i < 3; i++) {
         const double *row = inverse[i];
@@ -131,7 +135,25 @@ static bool find_columns(const struct kiln_primaries *primaries, double columns[
         for (int j = 0; j < 3; j++)
             own[j][i] *= part;
     }
+    return true;
+}
+
+/* Finds XYZ for the white D50 by light of some primaries. */
+static bool find_columns(const struct kiln_primaries *primaries, double columns[3][3])
+{
+    double white[3], own[3][3], adapt[3][3];
+    if (!find_own_columns(primaries, white, own) || !adapt_to_d50(white, adapt))
+        return false;
     multiply(adapt, own, columns);
+    return true;
+}
+
+bool kiln_primaries_luminance(const struct kiln_primaries *primaries, double weights[3])
+{
+    double white[3], own[3][3];
+    if (!find_own_columns(primaries, white, own))
+        return false;
+    memcpy(weights, own[1], sizeof own[1]);
     return true;
 }
 
@@ -245,6 +267,17 @@ static float *make_lights(const struct kiln_color *color, size_t numbers)
                 kiln_curve_at(&color->curves[c], (float)i / (float)(numbers - 1));
     }
     return lights;
+}
+
+void kiln_light_convert(const double to_srgb[3][3], float *pixels, size_t count)
+{
+    for (; count > 0; count--, pixels += 4) {
+        const double light[3] = {(double)pixels[0], (double)pixels[1], (double)pixels[2]};
+        for (int i = 0; i < 3; i++) {
+            const double *row = to_srgb[i];
+            pixels[i] = (float)(row[0] * light[0] + row[1] * light[1] + row[2] * light[2]);
+        }
+    }
 }
 
 bool kiln_color_convert(const struct kiln_color *color, struct kiln_asset_image *image)

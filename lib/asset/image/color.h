@@ -35,8 +35,16 @@ float kiln_curve_at(const struct kiln_curve *curve, float x);
  * False: the primaries are no triangle around white. */
 bool kiln_primaries_to_srgb(const struct kiln_primaries *primaries, double to_srgb[3][3]);
 
-/* The same from the columns of a profile: XYZ of red, green and blue for the white D50. */
+/* Finds how much each primary adds to the luminance of a colour. False: as above. */
+bool kiln_primaries_luminance(const struct kiln_primaries *primaries, double weights[3]);
+
+/* The same as kiln_primaries_to_srgb from the columns of a profile: XYZ of red, green and blue for
+ * the white D50. */
 bool kiln_columns_to_srgb(const double xyz[3][3], double to_srgb[3][3]);
+
+/* Converts linear light of RGBA pixels to sRGB's primaries. Light outside of sRGB becomes negative.
+ * Alpha is not changed. */
+void kiln_light_convert(const double to_srgb[3][3], float *pixels, size_t count);
 
 /* Returns whether a colour converts no number of 8 bits by more than one level: then the file
  * means sRGB. */

@@ -32,7 +32,7 @@ static const struct signature {
     {"MM\0+", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
     {"BM", 2, KILN_PICTURE_BMP, KILN_DECODE_PICTURE, "BMP"},
     {"GIF8", 4, KILN_PICTURE_GIF, KILN_DECODE_PICTURE, "GIF"},
-    {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_PICTURE, "EXR"},
+    {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_EXR, "EXR"},
 };
 
 /* ---- format ---------------------------------------------------------------------------------- */
@@ -68,14 +68,6 @@ static bool refuse_unknown(const struct head *head, const char *name, struct kil
         name, found);
 }
 
-/* Returns whether an OpenEXR file has a single part, in tiles. FFmpeg decodes the layer "beauty" of
- * such a file, since decode/exr.c reads only scan lines. Bytes 4 to 7 are a little-endian word of
- * version and flags, whose bit 9, or bit 1 of byte 5, stands for tiles. */
-static bool is_tiled_exr(const struct head *head)
-{
-    return head->size >= 8 && (head->bytes[5] & 0x02) != 0;
-}
-
 /* Chooses the kind of process that decodes a layer of a file, or the picture if `layer` is NULL.
  * name: the file's name, for messages. */
 static bool choose_kind(const struct head *head, const char *name, const char *layer,
@@ -83,20 +75,19 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
                         struct kiln_error *error)
 {
     const struct signature *signature = find_signature(head);
-    const bool beauty = !layer || strcmp(layer, "beauty") == 0;
+    const char *wanted = layer ? layer : "beauty";
     if (!signature)
         return refuse_unknown(head, name, error);
     request->format = signature->format;
     *kind = signature->kind;
-    if (layer && signature->format == KILN_PICTURE_EXR && !(beauty && is_tiled_exr(head))) {
-        *kind = KILN_DECODE_EXR;
-        return snprintf(request->layer, sizeof request->layer, "%s", layer) <
+    if (signature->format == KILN_PICTURE_EXR)
+        return snprintf(request->layer, sizeof request->layer, "%s", wanted) <
                    (int)sizeof request->layer ||
                kiln_error_set(error, KILN_INVALID_INPUT, "%s: no layer '%s'", name, layer);
-    }
-    return beauty || kiln_error_set(error, KILN_INVALID_INPUT,
-                                    "%s: no layer '%s': %s images have no layers but 'beauty'",
-                                    name, layer, signature->name);
+    return strcmp(wanted, "beauty") == 0 ||
+           kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: no layer '%s': %s images have no layers but 'beauty'", name, layer,
+                          signature->name);
 }
 
 /* ---- decoding -------------------------------------------------------------------------------- */

@@ -15,7 +15,7 @@
     X(TIFF, "tiff")       /* by libtiff */                                                         \
     X(WEBP, "webp")       /* by libwebp, also the frames of animations */                          \
     X(PROFILE, "profile") /* any of these whose colour profile has tables, with lcms2 */           \
-    X(PICTURE, "picture") /* BMP, GIF and EXR, by FFmpeg */                                        \
+    X(PICTURE, "picture") /* BMP and GIF, by FFmpeg */                                             \
     X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
