@@ -26,7 +26,7 @@ static const uint64_t most_memory_of[] = {
     [KILN_DECODE_WEBP] = (uint64_t)2 << 30,    [KILN_DECODE_TIFF] = (uint64_t)3 << 30,
     [KILN_DECODE_PROFILE] = (uint64_t)3 << 30, [KILN_DECODE_PICTURE] = (uint64_t)3 << 30,
     [KILN_DECODE_EXR] = (uint64_t)3 << 30,     [KILN_DECODE_VIDEO] = (uint64_t)4 << 30,
-    [KILN_DECODE_MESH] = (uint64_t)1280 << 20,
+    [KILN_DECODE_OPENEXR] = (uint64_t)3 << 30, [KILN_DECODE_MESH] = (uint64_t)1280 << 20,
 };
 
 enum {

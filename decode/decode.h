@@ -32,7 +32,9 @@ struct decode_picture {
     uint64_t most_pixels;
     bool raw;               /* the numbers are data: they are neither turned nor converted */
     uint32_t width, height; /* set when the size is known */
-    bool needs_profile;     /* set: only a process of kind KILN_DECODE_PROFILE can show it */
+    /* set: only a process of kind KILN_DECODE_PROFILE can show it; of an EXR, one of kind
+     * KILN_DECODE_OPENEXR */
+    bool needs_profile;
     uint32_t page;          /* which page is wanted; 0: the first */
     uint32_t pages;         /* of the file; 1, unless the reader sets it */
     struct kiln_error *error;
@@ -100,6 +102,7 @@ bool decode_webp_frames(struct decode_picture *picture,
 bool decode_jpeg_begin(struct kiln_error *error);
 bool decode_webp_begin(struct kiln_error *error);
 bool decode_tiff_begin(struct kiln_error *error);
+bool decode_exr_more_begin(struct kiln_error *error);
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 

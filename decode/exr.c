@@ -247,8 +247,45 @@ static bool show_colors(struct exr_reading *reading)
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-/* Refuses by name what OpenEXR's C core does not decode. */
-static bool check_storage(const struct exr_reading *reading)
+/* Returns whether all channels of the part are half floats. */
+static bool are_halves(const struct exr_reading *reading)
+{
+    const exr_attr_chlist_t *list = NULL;
+    bool all = exr_get_channels(reading->file, reading->part, &list) == EXR_ERR_SUCCESS;
+    for (int i = 0; all && i < list->num_channels; i++)
+        all = list->entries[i].pixel_type == EXR_PIXEL_HALF;
+    return all;
+}
+
+/* Returns whether OpenEXR's C core cannot decode the part: it has no DWAA and no DWAB, and misreads
+ * what follows a channel of B44 that is not of half floats. */
+static bool needs_more(const struct exr_reading *reading, exr_compression_t compression)
+{
+    return compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB ||
+           ((compression == EXR_COMPRESSION_B44 || compression == EXR_COMPRESSION_B44A) &&
+            !are_halves(reading));
+}
+
+/* Only colours of deep scan lines can be flattened, which takes their alpha and depth. */
+static bool check_deep(const struct exr_reading *reading, exr_storage_t storage)
+{
+    const struct exr_layer *layer = &reading->layer;
+    const exr_attr_chlist_t *list = NULL;
+    bool depth = false;
+    if (exr_get_channels(reading->file, reading->part, &list) == EXR_ERR_SUCCESS) {
+        for (int i = 0; i < list->num_channels; i++)
+            depth = depth || strcmp(list->entries[i].name.str, "Z") == 0;
+    }
+    const bool flat = storage == EXR_STORAGE_DEEP_SCANLINE && depth && layer->is_color &&
+                      layer->names[EXR_ALPHA] && strcmp(layer->names[EXR_ALPHA], "A") == 0;
+    return flat || kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                                  "the layer '%s' of the EXR image is deep; kiln flattens only R, "
+                                  "G, B and A with Z in scan lines",
+                                  reading->picture->layer);
+}
+
+/* Decodes the channels, or asks for a process that has OpenEXR's C++. */
+static bool read_pixels(struct exr_reading *reading)
 {
     exr_storage_t storage;
     exr_compression_t compression;
@@ -257,17 +294,16 @@ static bool check_storage(const struct exr_reading *reading)
         code = exr_get_compression(reading->file, reading->part, &compression);
     if (code != EXR_ERR_SUCCESS)
         return decode_exr_fail(reading, code);
-    if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED)
+    const bool deep = storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED;
+    if (deep && !check_deep(reading, storage))
+        return false;
+    if (!deep && !needs_more(reading, compression))
+        return make_planes(reading) && decode_exr_pixels(reading);
+    reading->picture->needs_profile = !decode_exr_more_is_ready();
+    if (reading->picture->needs_profile)
         return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
-                              "the layer '%s' of the EXR image is deep, which cannot be read; "
-                              "flatten it",
-                              reading->picture->layer);
-    if (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB)
-        return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
-                              "the EXR image is compressed by %s, which cannot be read; allowed "
-                              "are none, RLE, ZIPS, ZIP, PIZ, PXR24, B44 and B44A",
-                              compression == EXR_COMPRESSION_DWAA ? "DWAA" : "DWAB");
-    return true;
+                              "the EXR image needs OpenEXR's C++");
+    return make_planes(reading) && decode_exr_more(reading, deep);
 }
 
 struct kiln_asset_image *decode_exr(struct decode_picture *picture)
@@ -275,8 +311,7 @@ struct kiln_asset_image *decode_exr(struct decode_picture *picture)
     struct exr_reading reading = {.picture = picture};
     const exr_result_t code = open_file(&reading);
     bool ok = code == EXR_ERR_SUCCESS || decode_exr_fail(&reading, code);
-    ok = ok && decode_exr_find_layer(&reading) && check_storage(&reading) &&
-         take_windows(&reading) && make_planes(&reading) && decode_exr_pixels(&reading) &&
+    ok = ok && decode_exr_find_layer(&reading) && take_windows(&reading) && read_pixels(&reading) &&
          show_colors(&reading);
     if (ok) {
         fill_components(&reading);

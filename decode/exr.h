@@ -52,6 +52,10 @@ bool decode_exr_pixels(struct exr_reading *reading);
 float *decode_exr_target(const struct exr_reading *reading, enum exr_role role, size_t *step,
                          size_t *stride);
 
+/* The same by OpenEXR's C++. deep: flattens the samples of a deep part. */
+bool decode_exr_more(struct exr_reading *reading, bool deep);
+bool decode_exr_more_is_ready(void);
+
 /* Computes red, green and blue of luminance, which is the red of the image, and chroma. weights:
  * the luminance of each primary. */
 bool decode_exr_chroma(struct exr_reading *reading, const double weights[3]);

@@ -147,7 +147,8 @@ static bool find_channels(struct exr_layer *layer, const exr_attr_chlist_t *list
     if (choose(&words, !beauty, layer) && *wanted)
         return true;
     words = find_words(list, "");
-    if (strcmp(wanted, "depth") == 0 && choose_one(words.channels[WORD_Z], layer))
+    const char *depth = words.channels[WORD_X] ? NULL : words.channels[WORD_Z];
+    if (strcmp(wanted, "depth") == 0 && choose_one(depth, layer))
         return true;
     if (*part && strcmp(part, wanted) == 0 && choose(&words, !beauty, layer))
         return true;

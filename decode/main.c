@@ -150,7 +150,7 @@ static void send_image(const struct kiln_asset_image *image, uint32_t pages)
 static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
                                             struct decode_picture *picture)
 {
-    if (kind == KILN_DECODE_EXR)
+    if (kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR)
         return decode_exr(picture);
     if (kind == KILN_DECODE_PICTURE)
         return decode_by_ffmpeg(picture);
@@ -321,6 +321,8 @@ static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
         return kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, error);
     case KILN_DECODE_MESH:
         return decode_mesh_begin(error);
+    case KILN_DECODE_OPENEXR:
+        return decode_exr_more_begin(error);
     case KILN_DECODE_PNG:
     case KILN_DECODE_EXR:
     case KILN_DECODE_KIND_COUNT:

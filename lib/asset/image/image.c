@@ -99,8 +99,15 @@ struct wanted {
     uint32_t page;
 };
 
-/* Lets a process of a kind decode an open file. *needs_profile is set if only one of kind
- * KILN_DECODE_PROFILE can. */
+/* Returns the kind of process that decodes what one of a kind cannot. */
+static enum kiln_decode_kind other_kind(enum kiln_decode_kind kind)
+{
+    return kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR ? KILN_DECODE_OPENEXR
+                                                                  : KILN_DECODE_PROFILE;
+}
+
+/* Lets a process of a kind decode an open file. *needs_profile is set if only one of the other kind
+ * can. */
 static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_decode_kind kind,
                                     const struct kiln_decode_request *request, int file,
                                     bool *needs_profile, struct kiln_error *error)
@@ -108,8 +115,8 @@ static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_de
     received->helper = kiln_loader_take(received->loader, kind, error);
     if (!received->helper)
         return NULL;
-    /* A process that has opened lcms2 needs no other one, unless a file has taken it over. */
-    const unsigned other = kind == KILN_DECODE_PROFILE ? 0 : 1u << KILN_DECODE_NEEDS_PROFILE;
+    /* A process of the other kind needs no further one, unless a file has taken it over. */
+    const unsigned other = kind == other_kind(kind) ? 0 : 1u << KILN_DECODE_NEEDS_PROFILE;
     const unsigned expected = 1u << KILN_DECODE_PIXELS | other;
     struct kiln_error reason = {0};
     struct kiln_asset_image *image = NULL;
@@ -149,7 +156,7 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
     bool needs_profile = false;
     struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_profile, error);
     if (needs_profile)
-        image = ask(&received, KILN_DECODE_PROFILE, &request, file, &needs_profile, error);
+        image = ask(&received, other_kind(kind), &request, file, &needs_profile, error);
     return image;
 }
 

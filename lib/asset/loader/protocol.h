@@ -17,6 +17,7 @@
     X(PROFILE, "profile") /* any of these whose colour profile has tables, with lcms2 */           \
     X(PICTURE, "picture") /* BMP and GIF, by FFmpeg */                                             \
     X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
+    X(OPENEXR, "openexr") /* the EXR files that need OpenEXR's C++ */                              \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
 
@@ -80,7 +81,8 @@ enum kiln_decode_what {
     /* Describes a mesh. Its arrays follow, as kiln_mesh_visit_arrays lists them. */
     KILN_DECODE_MESH_MADE,
 
-    /* Only a process of kind KILN_DECODE_PROFILE can decode the picture. */
+    /* Only a process of kind KILN_DECODE_PROFILE can decode the picture; of an EXR, one of kind
+     * KILN_DECODE_OPENEXR. */
     KILN_DECODE_NEEDS_PROFILE,
 };
 
