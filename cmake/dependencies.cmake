@@ -23,7 +23,7 @@ pkg_check_modules(KILN_FFMPEG IMPORTED_TARGET libavcodec libavformat libavutil l
 # cglm has only headers: lib/base/matrix.h uses its inline functions.
 pkg_check_modules(KILN_CGLM cglm)
 # kiln links only the C core of OpenEXR. The rest of OpenEXR is C++, and the dynamic linker would load it at every
-# start of kiln; only the module kiln-openexr.so links it (decode/exr_module.cpp).
+# start of kiln; only the module kiln-openexr.so links it (decode/exr_module.cc).
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR

@@ -12,22 +12,23 @@
 static const float weights_of_taps[7] = {0.002128f, -0.007540f, 0.019597f, -0.043159f,
                                          0.087929f, -0.186077f, 0.627123f};
 
-/* Returns a value between samples k and k + 1 of a row or a column. Beyond its ends, the samples
- * repeat. */
-static float between(const float *samples, size_t step, uint32_t count, uint32_t k)
+/* Returns a value between samples k and k + 1 of a row or a column, where k is -1 or more. Beyond
+ * its ends, the samples repeat. */
+static float between(const float *samples, size_t step, uint32_t count, int64_t k)
 {
+    const int64_t last = (int64_t)count - 1;
     float sum = 0.0f;
-    for (uint32_t tap = 0; tap < 7; tap++) {
-        const uint32_t back = 6 - tap, ahead = 7 - tap;
-        const float before = samples[step * (k > back ? k - back : 0)];
-        const float behind = samples[step * (count - 1 - k > ahead ? k + ahead : count - 1)];
-        sum += weights_of_taps[tap] * (before + behind);
+    for (int tap = 0; tap < 7; tap++) {
+        const int64_t before = k - (6 - tap), behind = k + (7 - tap);
+        sum += weights_of_taps[tap] * (samples[step * (size_t)(before > 0 ? before : 0)] +
+                                       samples[step * (size_t)(behind < last ? behind : last)]);
     }
     return sum;
 }
 
-/* Computes a line of chroma for each pixel. line: room for the samples of a line. */
-static void find_chroma(const struct exr_reading *reading, const float *plane, uint32_t y,
+/* Computes a line of chroma for each pixel; y is -1 or more. line: room for the samples of a line.
+ */
+static void find_chroma(const struct exr_reading *reading, const float *plane, int64_t y,
                         float *line, float *chroma)
 {
     const uint32_t columns = reading->chroma_width, rows = reading->chroma_height;
@@ -36,8 +37,8 @@ static void find_chroma(const struct exr_reading *reading, const float *plane, u
         return;
     }
     for (uint32_t x = 0; x < columns; x++)
-        line[x] =
-            y % 2 ? between(plane + x, columns, rows, y / 2) : plane[(size_t)(y / 2) * columns + x];
+        line[x] = y % 2 ? between(plane + x, columns, rows, (y + 1) / 2 - 1)
+                        : plane[(size_t)(y / 2) * columns + x];
     for (uint32_t x = 0; x < reading->data.width; x++)
         chroma[x] = x % 2 ? between(line, 1, columns, x / 2) : line[x / 2];
 }
@@ -118,8 +119,10 @@ static void fix_row(float *row, const float *above, const float *below, uint32_t
     }
 }
 
-/* lines: room for two lines of pixels. */
-static void fix_saturation(struct exr_reading *reading, float *lines, const double weights[3])
+/* lines: room for two lines of pixels. first: the line above the picture. The one below the picture
+ * is the last but one. */
+static void fix_saturation(struct exr_reading *reading, float *lines, const float *first,
+                           const double weights[3])
 {
     const uint32_t width = reading->data.width, height = reading->data.height;
     const size_t size = (size_t)width * 4;
@@ -127,28 +130,40 @@ static void fix_saturation(struct exr_reading *reading, float *lines, const doub
     for (uint32_t y = 0; y < height; y++) {
         float *row = pixels + y * size;
         float *own = lines + (y % 2) * size;
-        const float *above = y > 0 ? lines + (y + 1) % 2 * size : own;
+        const float *above = y > 0 ? lines + (y + 1) % 2 * size : first;
         const float *below = y + 1 < height ? row + size : above;
         memcpy(own, row, size * sizeof *own);
         fix_row(row, above, below, width, weights);
     }
 }
 
-bool decode_exr_chroma(struct exr_reading *reading, const double weights[3])
+/* Computes the colours of a line of pixels, of which the red is the luminance. room: for three
+ * floats a pixel. */
+static void show_line(const struct exr_reading *reading, int64_t y, float *pixels, float *room,
+                      const double weights[3])
 {
     const uint32_t width = reading->data.width;
-    float *lines = malloc((size_t)width * 8 * sizeof *lines);
-    if (!lines)
+    float *line = room, *ry = room + width, *by = room + (size_t)2 * width;
+    find_chroma(reading, reading->chroma[0], y, line, ry);
+    find_chroma(reading, reading->chroma[1], y, line, by);
+    find_colors(pixels, ry, by, width, weights);
+}
+
+bool decode_exr_chroma(struct exr_reading *reading, const double weights[3])
+{
+    const size_t size = (size_t)reading->data.width * 4;
+    float *pixels = reading->image->pixels;
+    float *room = malloc(size * 3 * sizeof *room);
+    if (!room)
         return decode_out_of_memory(reading->picture->error);
-    float *line = lines, *ry = lines + width, *by = lines + (size_t)2 * width;
-    for (uint32_t y = 0; y < reading->data.height; y++) {
-        find_chroma(reading, reading->chroma[0], y, line, ry);
-        find_chroma(reading, reading->chroma[1], y, line, by);
-        find_colors((float *)reading->image->pixels + (size_t)y * width * 4, ry, by, width,
-                    weights);
-    }
+    float *first = room + 2 * size;
+    memcpy(first, pixels, size * sizeof *first);
     if (reading->layer.sampling == 2)
-        fix_saturation(reading, lines, weights);
-    free(lines);
+        show_line(reading, -1, first, room, weights);
+    for (uint32_t y = 0; y < reading->data.height; y++)
+        show_line(reading, y, pixels + y * size, room, weights);
+    if (reading->layer.sampling == 2)
+        fix_saturation(reading, room, first, weights);
+    free(room);
     return true;
 }

@@ -17,24 +17,21 @@ static struct {
     __typeof__(kiln_openexr_read) *kiln_openexr_read;
 } module;
 
-/* Finds the module: in the folder that the environment names for kiln's own programs, or beside
- * this program. */
+/* Finds the module: beside this program, or in the folder that the environment names for kiln's own
+ * programs. */
 static bool find_module(char path[KILN_PATH_SIZE])
 {
+    char program[KILN_PATH_SIZE];
+    const ssize_t got = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[got > 0 ? got : 0] = '\0';
+    const char *slash = strrchr(program, '/');
+    if (slash &&
+        snprintf(path, KILN_PATH_SIZE, "%.*s/" MODULE, (int)(slash - program), program) <
+            KILN_PATH_SIZE &&
+        access(path, R_OK) == 0)
+        return true;
     const char *set = getenv("KILN_LIBEXEC_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
-    int length = -1;
-    if (set && *set) {
-        length = snprintf(path, KILN_PATH_SIZE, "%s/" MODULE, set);
-    } else {
-        char program[KILN_PATH_SIZE];
-        const ssize_t got = readlink("/proc/self/exe", program, sizeof program - 1);
-        program[got > 0 ? got : 0] = '\0';
-        const char *slash = strrchr(program, '/');
-        if (slash)
-            length =
-                snprintf(path, KILN_PATH_SIZE, "%.*s/" MODULE, (int)(slash - program), program);
-    }
-    return length > 0 && length < KILN_PATH_SIZE;
+    return set && *set && snprintf(path, KILN_PATH_SIZE, "%s/" MODULE, set) < KILN_PATH_SIZE;
 }
 
 bool decode_exr_more_begin(struct kiln_error *error)

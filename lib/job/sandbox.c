@@ -11,6 +11,7 @@
 #include <string.h>
 #include <sys/auxv.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "asset/loader/helper.h"
 #include "base/cache.h"
@@ -113,15 +114,28 @@ static bool add_machine(struct places *places, char *library_path)
     return true;
 }
 
-/* Adds kiln-decode. A job without pictures runs without it. */
-static bool add_helper(struct places *places, char helper[KILN_PATH_SIZE])
+/* The paths of kiln-decode and of the module that it opens for some EXR files. */
+struct helper_paths {
+    char program[KILN_PATH_SIZE], module[KILN_PATH_SIZE];
+};
+
+/* Adds kiln-decode and its module, which lies beside it (decode/exr_more.c). A job without pictures
+ * runs without them. */
+static bool add_helper(struct places *places, struct helper_paths *paths)
 {
     const char *linker = NULL;
     struct kiln_error ignored = {0};
     dl_iterate_phdr(find_linker, &linker);
-    return (!linker || add(places, linker, KILN_MAY_READ | KILN_MAY_EXECUTE)) &&
-           (!kiln_helper_find(helper, &ignored) ||
-            add(places, helper, KILN_MAY_READ | KILN_MAY_EXECUTE));
+    if (linker && !add(places, linker, KILN_MAY_READ | KILN_MAY_EXECUTE))
+        return false;
+    if (!kiln_helper_find(paths->program, &ignored))
+        return true;
+    const int folder = (int)(strrchr(paths->program, '/') - paths->program);
+    const int length = snprintf(paths->module, sizeof paths->module, "%.*s/kiln-openexr.so", folder,
+                                paths->program);
+    return add(places, paths->program, KILN_MAY_READ | KILN_MAY_EXECUTE) &&
+           (length >= (int)sizeof paths->module || access(paths->module, R_OK) != 0 ||
+            add(places, paths->module, KILN_MAY_READ));
 }
 
 static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
@@ -338,13 +352,14 @@ static bool confine(const struct kiln_sandbox_params *params, char **folders, ch
                     struct kiln_error *error)
 {
     struct places places = {.error = error};
-    char cache[KILN_PATH_SIZE], helper[KILN_PATH_SIZE];
+    char cache[KILN_PATH_SIZE];
+    struct helper_paths helper;
     for (size_t i = 0; i < params->readable_count; i++) {
         if (!add(&places, params->readable[i], KILN_MAY_READ))
             return false;
     }
     return add_writable(&places, params, folders) && add_machine(&places, library_path) &&
-           add_cache(&places, cache) && add_helper(&places, helper) && kiln_seccomp_open(error) &&
+           add_cache(&places, cache) && add_helper(&places, &helper) && kiln_seccomp_open(error) &&
            kiln_landlock_confine(places.items, places.count, error) && refuse_calls(error);
 }
 

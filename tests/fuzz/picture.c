@@ -19,7 +19,7 @@ static enum kiln_picture_format format_of(const uint8_t *data, size_t size)
         return KILN_PICTURE_WEBP;
     if (size >= 2 && memcmp(data, "GI", 2) == 0)
         return KILN_PICTURE_GIF;
-    return size >= 2 && memcmp(data, "v/", 2) == 0 ? KILN_PICTURE_EXR : KILN_PICTURE_JPEG;
+    return KILN_PICTURE_JPEG;
 }
 
 static struct kiln_asset_image *decode(struct decode_picture *picture)

@@ -374,7 +374,7 @@ $ kiln compare -q x.exr y.exr --layer fire
 = 1
 $ kiln compare -q x.exr y.exr --layer depth
 $ kiln compare -q x.exr x.exr --layer fier
-2|x.exr: no layer 'fier' whose lines have full size; the file has the channels A, B, G, R, Z, bloom.A, bloom.B, bloom.G, bloom.R, fire.A, fire.B, fire.G, fire.R, smoke.A, smoke.B, smoke.G, smoke.R
+2|x.exr: no layer 'fier'; the file has the channels A, B, G, R, Z, bloom.A, bloom.B, bloom.G, bloom.R, fire.A, fire.B, fire.G, fire.R, smoke.A, smoke.B, smoke.G, smoke.R
 = 3
 $ kiln compare -q grey.png grey.png --layer fire
 2|grey.png: no layer 'fire': PNG images have no layers but 'beauty'
