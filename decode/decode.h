@@ -30,6 +30,7 @@ struct decode_picture {
      * is "NAME.R" and so on, or "NAME.Y" alone */
     const char *layer;
     uint64_t most_pixels;
+    bool sky;               /* the picture shows all directions, by longitude and latitude */
     bool raw;               /* the numbers are data: they are neither turned nor converted */
     uint32_t width, height; /* set when the size is known */
     /* set: only a process of kind KILN_DECODE_PROFILE can show it; of an EXR, one of kind

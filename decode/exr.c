@@ -245,6 +245,18 @@ static bool show_colors(struct exr_reading *reading)
     return true;
 }
 
+/* A cube map shows its six faces, one below the other. */
+static bool check_sky(const struct exr_reading *reading)
+{
+    exr_envmap_t map;
+    return !reading->picture->sky ||
+           exr_attr_get_envmap(reading->file, reading->part, "envmap", &map) != EXR_ERR_SUCCESS ||
+           map != EXR_ENVMAP_CUBE ||
+           kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
+                          "the EXR image is a cube map; a sky is a picture by longitude and "
+                          "latitude");
+}
+
 /* ---- the file -------------------------------------------------------------------------------- */
 
 /* Returns whether all channels of the part are half floats. */
@@ -311,8 +323,8 @@ struct kiln_asset_image *decode_exr(struct decode_picture *picture)
     struct exr_reading reading = {.picture = picture};
     const exr_result_t code = open_file(&reading);
     bool ok = code == EXR_ERR_SUCCESS || decode_exr_fail(&reading, code);
-    ok = ok && decode_exr_find_layer(&reading) && take_windows(&reading) && read_pixels(&reading) &&
-         show_colors(&reading);
+    ok = ok && decode_exr_find_layer(&reading) && check_sky(&reading) && take_windows(&reading) &&
+         read_pixels(&reading) && show_colors(&reading);
     if (ok) {
         fill_components(&reading);
         ok = show_window(&reading);

@@ -192,6 +192,7 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
     struct decode_picture picture = {.format = (enum kiln_picture_format)request->format,
                                      .layer = request->layer,
                                      .most_pixels = request->most_pixels,
+                                     .sky = request->sky,
                                      .raw = request->raw,
                                      .page = request->page,
                                      .pages = 1,

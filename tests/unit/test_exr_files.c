@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "asset/image/image.h"
+#include "base/file_in.h"
 #include "decode.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
@@ -19,19 +20,23 @@
 static void compare(const char *name, const struct kiln_asset_image *image, double tolerance)
 {
     char path[512];
-    unsigned width = 0, height = 0, channels = 0;
+    struct kiln_error error = {0};
+    size_t size = 0;
     snprintf(path, sizeof path, FOLDER "%s.txt", name);
-    FILE *file = fopen(path, "re");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%u %u %u", &width, &height, &channels), 3);
+    char *text = (char *)kiln_file_read(path, "text", "text", 1 << 20, &size, &error);
+    assert_non_null(text);
+    text[size - 1] = '\0';
+    char *rest = text;
+    const unsigned long width = strtoul(rest, &rest, 10), height = strtoul(rest, &rest, 10);
+    const unsigned long channels = strtoul(rest, &rest, 10);
     assert_int_equal(image->width, width);
     assert_int_equal(image->height, height);
     assert_int_equal(image->channels, channels);
     const float *pixel = image->pixels;
-    for (size_t i = 0; i < (size_t)width * height; i++, pixel += 4) {
+    for (size_t i = 0; i < (size_t)(width * height); i++, pixel += 4) {
         for (unsigned c = 0; c < channels; c++) {
-            double expected = 0.0;
-            assert_int_equal(fscanf(file, "%lf", &expected), 1);
+            assert_true(*rest);
+            const double expected = strtod(rest, &rest);
             const double most = tolerance * fmax(1.0, fabs(expected));
             if (!(fabs((double)pixel[c] - expected) <= most))
                 fail_msg("%s: pixel %zu, channel %u is %.9g, expected %.9g", name, i, c,
@@ -40,7 +45,7 @@ static void compare(const char *name, const struct kiln_asset_image *image, doub
         if (channels == 3)
             assert_true(pixel[3] == 1.0f);
     }
-    fclose(file);
+    free(text);
 }
 
 static struct kiln_asset_image *load(const char *name, const char *layer)
@@ -113,6 +118,20 @@ static void data_stay_raw(void **state)
     assert_string_equal(error.message, "");
     assert_true(((const float *)image->pixels)[0] == 2.0f);
     kiln_asset_image_destroy(&image);
+}
+
+static void a_cube_map_is_no_sky(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    struct kiln_asset_image *image = load("cube", "beauty");
+    assert_int_equal(image->height, 48);
+    kiln_asset_image_destroy(&image);
+    assert_null(kiln_asset_image_load_sky(NULL, FOLDER "cube.exr", &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 FOLDER
+                 "cube.exr: the EXR image is a cube map; a sky is a picture by longitude and "
+                 "latitude");
 }
 
 /* ---- files of the test's own ----------------------------------------------------------------- */
@@ -326,6 +345,7 @@ int main(void)
         cmocka_unit_test(files_are_read_as_others_read_them),
         cmocka_unit_test(layers_of_all_parts_are_found),
         cmocka_unit_test(data_stay_raw),
+        cmocka_unit_test(a_cube_map_is_no_sky),
         cmocka_unit_test(channels_of_all_types_are_taken),
         cmocka_unit_test(what_kiln_cannot_show_is_refused),
         cmocka_unit_test(the_display_window_is_the_picture),

@@ -97,6 +97,7 @@ struct wanted {
     const char *layer; /* NULL: the picture, whose values are finite */
     bool raw;          /* the numbers are data, not colours */
     uint32_t page;
+    bool sky; /* the picture shows all directions */
 };
 
 /* Returns the kind of process that decodes what one of a kind cannot. */
@@ -135,7 +136,11 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
                                        const struct wanted *wanted, struct kiln_error *error)
 {
     struct kiln_decode_request request = {
-        .most_bytes = KILN_MAX_IMAGE_BYTES, .raw = wanted->raw, .page = wanted->page};
+        .most_bytes = KILN_MAX_IMAGE_BYTES,
+        .raw = wanted->raw,
+        .sky = wanted->sky,
+        .page = wanted->page,
+    };
     struct kiln_received received = {.loader = loader, .name = name, .finite = !wanted->layer};
     struct head head;
     const ssize_t got = pread(file, head.bytes, sizeof head.bytes, 0);
@@ -193,6 +198,12 @@ struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, 
                                                     struct kiln_error *error)
 {
     return load(loader, path, &(struct wanted){.raw = true}, error);
+}
+
+struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, const char *path,
+                                                   struct kiln_error *error)
+{
+    return load(loader, path, &(struct wanted){.sky = true}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,

@@ -55,6 +55,11 @@ struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const
 struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, const char *path,
                                                     struct kiln_error *error);
 
+/* The same for a picture that shows all directions, by longitude and latitude. An EXR file that
+ * says that it is a cube map is refused. */
+struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, const char *path,
+                                                   struct kiln_error *error);
+
 /* Decodes one layer of a file. EXR files have several layers, of which "beauty" is the picture;
  * other formats have only "beauty". KILN_INVALID_INPUT also when there is no such layer. Floats are
  * not made finite. */

@@ -99,7 +99,7 @@ bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *lo
                             const char *path, struct kiln_error *error)
 {
     *light = (struct kiln_sky_light){{0}, {0}};
-    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
+    struct kiln_asset_image *image = kiln_asset_image_load_sky(loader, path, error);
     if (!image)
         return false;
     float *row = malloc((size_t)image->width * 3 * sizeof *row);

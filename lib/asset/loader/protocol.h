@@ -55,6 +55,7 @@ struct kiln_decode_request {
     uint32_t raw;         /* of a picture: numbers are neither converted nor turned */
     uint32_t frames;      /* of a WebP: all frames are wanted, answered like those of a video */
     uint32_t page;        /* of a picture: which page of the file; 0: the first */
+    uint32_t sky;         /* of a picture: it is wrapped around the scene; cube maps are refused */
     uint64_t most_bytes;  /* size limit of the file in bytes */
     uint64_t most_pixels; /* limit of a picture's width * height */
     char layer[64];       /* name of a layer of an EXR file */
