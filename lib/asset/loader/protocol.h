@@ -58,7 +58,7 @@ struct kiln_decode_request {
     uint32_t sky;         /* of a picture: it is wrapped around the scene; cube maps are refused */
     uint64_t most_bytes;  /* size limit of the file in bytes */
     uint64_t most_pixels; /* limit of a picture's width * height */
-    char layer[64];       /* name of a layer of an EXR file */
+    char layer[512];      /* name of a layer of an EXR file */
 };
 
 /* Kinds of answers. */
