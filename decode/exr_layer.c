@@ -69,10 +69,9 @@ static struct words find_words(const exr_attr_chlist_t *list, const char *prefix
  * name. Other numbers are not converted between primaries. */
 static bool is_data(const char *layer)
 {
-    static const char *const names[] = {"N",        "P",        "normal", "normals", "position",
-                                        "motion",   "velocity", "vector", "uv",      "id",
-                                        "depth",    "mask",     "Pref",   "st",      "pointiness",
-                                        "worldpos", "Nworld",   "tangent"};
+    static const char *const names[] = {"N",        "P",       "id",       "uv",
+                                        "normal",   "normals", "position", "motion",
+                                        "velocity", "vector",  "depth",    "mask"};
     const char *dot = strrchr(layer, '.');
     const char *last = dot ? dot + 1 : layer;
     bool found = strncasecmp(last, "crypto", 6) == 0;
