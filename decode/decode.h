@@ -36,8 +36,8 @@ struct decode_picture {
     /* set: only a process of kind KILN_DECODE_PROFILE can show it; of an EXR, one of kind
      * KILN_DECODE_OPENEXR */
     bool needs_profile;
-    uint32_t page;          /* which page is wanted; 0: the first */
-    uint32_t pages;         /* of the file; 1, unless the reader sets it */
+    uint32_t page;  /* which page is wanted; 0: the first */
+    uint32_t pages; /* of the file; 1, unless the reader sets it */
     struct kiln_error *error;
 };
 
