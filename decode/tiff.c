@@ -352,7 +352,7 @@ static bool read_pixels(struct tiff_reading *reading)
     free(reading->buffer); /* the picture may be turned, which takes memory, too */
     reading->buffer = NULL;
     return decode_tiff_finish(samples, reading->image) ||
-           decode_out_of_memory(reading->picture->error);
+           decode_tiff_refuse(reading, "whose white (tag 318) is none");
 }
 
 /* Makes the picture that is meant of the pixels that are stored. Floats are linear light. */

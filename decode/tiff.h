@@ -52,7 +52,7 @@ void decode_tiff_store(const struct tiff_samples *samples, const struct tiff_run
                        struct kiln_asset_image *image, void *ink_alpha);
 
 /* Turns the stored samples into grey or RGB with alpha, or into ink as decode_show expects it.
- * False: memory is short. */
+ * False: the white of CIELAB is none. */
 bool decode_tiff_finish(const struct tiff_samples *samples, struct kiln_asset_image *image);
 
 #endif

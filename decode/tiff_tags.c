@@ -65,12 +65,10 @@ static bool check_numbers(struct tiff_reading *reading)
     const uint16_t format = decode_tiff_number(reading, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
     char what[80];
     samples->bits = decode_tiff_number(reading, TIFFTAG_BITSPERSAMPLE, 1);
-    samples->samples = decode_tiff_number(reading, TIFFTAG_SAMPLESPERPIXEL, 1);
     samples->planar = decode_tiff_number(reading, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
                       PLANARCONFIG_SEPARATE;
     samples->floats = format == SAMPLEFORMAT_IEEEFP;
-    const bool lab =
-        decode_tiff_number(reading, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB) == PHOTOMETRIC_CIELAB;
+    const bool lab = samples->color == TIFF_LAB;
     const uint32_t bits = samples->bits;
     if (format == SAMPLEFORMAT_COMPLEXIEEEFP || format == SAMPLEFORMAT_COMPLEXINT)
         return decode_tiff_refuse(reading, "of complex numbers");
@@ -147,6 +145,10 @@ static bool check_both(struct tiff_reading *reading)
                       : samples->color == TIFF_YCBCR   ? bits == 8
                       : samples->color == TIFF_PALETTE ? bits <= 8
                                                        : true;
+    if (reading->compression == COMPRESSION_JPEG && bits != 8) {
+        snprintf(what, sizeof what, "of JPEG with %u bits a sample", bits);
+        return decode_tiff_refuse(reading, what);
+    }
     snprintf(what, sizeof what, "of %u bits a sample and such colours", bits);
     if (!fits)
         return decode_tiff_refuse(reading, what);
@@ -218,9 +220,10 @@ static bool find_ycbcr(struct tiff_reading *reading)
         samples->range[i] = (double)range[i];
     bool sound = samples->luma[1] > 1e-3;
     for (int i = 0; i < 3; i++)
-        sound = sound && samples->luma[i] >= 0.0 && samples->luma[i] <= 1.0 &&
-                samples->range[2 * i + 1] - samples->range[2 * i] >= 1.0 &&
-                samples->range[2 * i + 1] <= 65535.0 && samples->range[2 * i] >= -65535.0;
+        sound = sound && samples->luma[i] >= 0.0 && samples->luma[i] <= 1.0;
+    for (int i = 0; i < 6; i += 2)
+        sound = sound && samples->range[i + 1] - samples->range[i] >= 1.0 &&
+                samples->range[i + 1] <= 65535.0 && samples->range[i] >= -65535.0;
     if (!sound)
         return decode_tiff_refuse(reading, "with such coefficients of YCbCr");
     const bool shared = samples->chroma[0] > 1 || samples->chroma[1] > 1;
@@ -246,12 +249,13 @@ bool decode_tiff_describe(struct tiff_reading *reading)
 {
     struct tiff_samples *samples = &reading->samples;
     reading->compression = decode_tiff_number(reading, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    samples->samples = decode_tiff_number(reading, TIFFTAG_SAMPLESPERPIXEL, 1);
     samples->chroma[0] = samples->chroma[1] = 1;
     if (!reading->tiff->TIFFGetField(reading->file, TIFFTAG_IMAGEWIDTH, &reading->width) ||
         !reading->tiff->TIFFGetField(reading->file, TIFFTAG_IMAGELENGTH, &reading->height))
         return decode_tiff_refuse_broken(reading);
     if (!decode_allows_size(reading->picture, "TIFF", reading->width, reading->height) ||
-        !check_numbers(reading) || !check_color(reading) || !check_both(reading) ||
+        !check_color(reading) || !check_numbers(reading) || !check_both(reading) ||
         !check_compression(reading) || !choose_jpeg(reading))
         return false;
     if (!find_alpha(reading))
