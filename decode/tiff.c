@@ -247,7 +247,8 @@ static bool find_blocks(struct tiff_reading *reading, struct blocks *blocks)
     return reading->buffer || decode_out_of_memory(reading->picture->error);
 }
 
-/* Decodes a block. Its size by libtiff must be that by kiln. */
+/* Decodes a block. Its size by libtiff must be that by kiln. libtiff would read past the end of a
+ * block that is not compressed, into other data. */
 static bool read_block(struct tiff_reading *reading, const struct blocks *blocks, uint32_t number,
                        uint32_t rows)
 {
@@ -255,7 +256,9 @@ static bool read_block(struct tiff_reading *reading, const struct blocks *blocks
     const uint64_t bytes = block_bytes(reading, blocks, rows);
     const uint64_t theirs = blocks->tiled ? reading->tiff->TIFFTileSize64(file)
                                           : reading->tiff->TIFFVStripSize64(file, rows);
-    if (theirs != bytes)
+    const bool cut = reading->compression == COMPRESSION_NONE &&
+                     reading->tiff->TIFFGetStrileByteCount(file, number) < bytes;
+    if (theirs != bytes || cut)
         return decode_tiff_refuse_broken(reading);
     memset(reading->buffer, 0, (size_t)bytes);
     reading->in_pixels = true;

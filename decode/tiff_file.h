@@ -29,6 +29,7 @@
     F(TIFFNumberOfTiles)                                                                           \
     F(TIFFVStripSize64)                                                                            \
     F(TIFFTileSize64)                                                                              \
+    F(TIFFGetStrileByteCount)                                                                      \
     F(TIFFReadEncodedStrip)                                                                        \
     F(TIFFReadEncodedTile)
 
