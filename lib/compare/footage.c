@@ -34,8 +34,9 @@ struct kiln_footage {
     struct entry *entries;
     size_t count, capacity, next;
 
-    struct kiln_loader *loader; /* keeps the decoding process for the next picture */
-    struct kiln_video_in *video;
+    struct kiln_loader *loader;     /* keeps the decoding process for the next picture */
+    struct kiln_video_in *video;    /* of a video; NULL for the pages of a picture */
+    uint32_t pages, pages_read;     /* of a picture with several pages */
     struct kiln_asset_image *image; /* decoded ahead */
     struct kiln_error video_error;
     bool decoded_ahead; /* the next frame, or the error in its place */
@@ -174,16 +175,40 @@ static bool open_numbered(struct kiln_footage *footage, const struct kiln_path_p
                            : no_memory(footage->path, error);
 }
 
-/* Returns whether a file is to be read frame by frame: WebP, PNG and GIF by their content, others
- * by their names. */
-static bool is_video(const char *path)
+/* What a file says of its frames. */
+struct content {
+    bool is_video; /* WebP, PNG and GIF by their content, others by their names */
+    bool is_tiff;
+};
+
+static struct content look_into(const char *path)
 {
     const char *dot = strrchr(path, '.');
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    const bool animated = file >= 0 && kiln_file_is_animated(file);
-    if (file >= 0)
+    struct content content = {.is_video = kiln_video_in_has_suffix(path) &&
+                                          (!dot || strcasecmp(dot, ".gif") != 0)};
+    if (file >= 0) {
+        content.is_video = content.is_video || kiln_file_is_animated(file);
+        content.is_tiff = kiln_file_is_tiff(file);
         close(file);
-    return animated || (kiln_video_in_has_suffix(path) && (!dot || strcasecmp(dot, ".gif") != 0));
+    }
+    return content;
+}
+
+/* Opens a TIFF: its pages are frames if there are several. */
+static bool open_pages(struct kiln_footage *footage, struct kiln_error *error)
+{
+    struct kiln_error ignored = {0};
+    footage->image = kiln_asset_image_load_page(footage->loader, footage->path, 0, &ignored);
+    if (!footage->image || footage->image->pages < 2) {
+        kiln_asset_image_destroy(&footage->image);
+        return open_still(footage, error);
+    }
+    footage->kind = KILN_FOOTAGE_VIDEO;
+    footage->pages = footage->image->pages;
+    footage->pages_read = 1;
+    footage->decoded_ahead = true;
+    return true;
 }
 
 static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
@@ -193,7 +218,10 @@ static bool open_path(struct kiln_footage *footage, struct kiln_error *error)
     int failure = errno;
     if (exists && S_ISDIR(status.st_mode))
         return open_folder(footage, error);
-    if (exists && is_video(footage->path)) {
+    const struct content content = exists ? look_into(footage->path) : (struct content){0};
+    if (content.is_tiff)
+        return open_pages(footage, error);
+    if (content.is_video) {
         footage->kind = KILN_FOOTAGE_VIDEO;
         footage->video = kiln_video_in_open(footage->loader, footage->path, error);
         return footage->video != NULL;
@@ -258,12 +286,23 @@ const char *kiln_footage_path(const struct kiln_footage *footage)
 
 /* ---- Reading ------------------------------------------------------------------------------ */
 
+/* Decodes the next frame or page. Returns false with the error, or true with a NULL image behind
+ * the last one. */
+static bool read_ahead(struct kiln_footage *footage)
+{
+    if (footage->video)
+        return kiln_video_in_read(footage->video, &footage->image, &footage->video_error);
+    if (footage->pages_read == footage->pages)
+        return true;
+    footage->image = kiln_asset_image_load_page(footage->loader, footage->path,
+                                                footage->pages_read++, &footage->video_error);
+    return footage->image != NULL;
+}
+
 static bool peek_video(struct kiln_footage *footage, struct kiln_footage_frame *frame)
 {
     if (!footage->decoded_ahead && !footage->at_end) {
-        footage->decoded_ahead =
-            !kiln_video_in_read(footage->video, &footage->image, &footage->video_error) ||
-            footage->image;
+        footage->decoded_ahead = !read_ahead(footage) || footage->image;
         footage->at_end = !footage->decoded_ahead;
     }
     snprintf(footage->number_text, sizeof footage->number_text, "%zu", footage->next);
@@ -273,7 +312,7 @@ static bool peek_video(struct kiln_footage *footage, struct kiln_footage_frame *
 
 bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame)
 {
-    if (footage->video)
+    if (footage->kind == KILN_FOOTAGE_VIDEO)
         return peek_video(footage, frame);
     if (footage->next == footage->count)
         return false;
@@ -305,7 +344,7 @@ static bool entry_path(const struct kiln_footage *footage, const struct entry *e
 bool kiln_footage_file(const struct kiln_footage *footage, char path[KILN_PATH_SIZE],
                        struct kiln_error *error)
 {
-    if (!footage->video)
+    if (footage->kind != KILN_FOOTAGE_VIDEO)
         return entry_path(footage, &footage->entries[footage->next], path, error);
     snprintf(path, KILN_PATH_SIZE, "%s", footage->path);
     return true;
@@ -322,8 +361,9 @@ static struct kiln_asset_image *take_file(const struct kiln_footage *footage,
 
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error)
 {
-    struct kiln_asset_image *image =
-        footage->video ? take_video(footage, error) : take_file(footage, error);
+    struct kiln_asset_image *image = footage->kind == KILN_FOOTAGE_VIDEO
+                                         ? take_video(footage, error)
+                                         : take_file(footage, error);
     footage->next++;
     if (!image && error->code == KILN_IO)
         error->code = KILN_INVALID_INPUT;
@@ -332,7 +372,7 @@ struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct 
 
 void kiln_footage_skip(struct kiln_footage *footage)
 {
-    if (footage->video && !footage->image)
+    if (footage->kind == KILN_FOOTAGE_VIDEO && !footage->image)
         footage->at_end = true;
     kiln_asset_image_destroy(&footage->image);
     footage->decoded_ahead = false;
@@ -345,7 +385,7 @@ bool kiln_footage_visit(const struct kiln_footage *footage,
                         bool (*visit)(void *user, const struct kiln_footage_frame *frame),
                         void *user)
 {
-    if (footage->video)
+    if (footage->kind == KILN_FOOTAGE_VIDEO)
         return visit(user, &(struct kiln_footage_frame){"0", 0});
     for (size_t i = 0; i < footage->count; i++) {
         const struct entry *entry = &footage->entries[i];
@@ -358,7 +398,7 @@ bool kiln_footage_visit(const struct kiln_footage *footage,
 bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
                         struct kiln_claims *claims, struct kiln_error *error)
 {
-    if (footage->video)
+    if (footage->kind == KILN_FOOTAGE_VIDEO)
         return kiln_claims_read(claims, footage->path, what, error);
     for (size_t i = 0; i < footage->count; i++) {
         char path[KILN_PATH_SIZE];

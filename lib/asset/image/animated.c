@@ -19,6 +19,14 @@ bool kiln_file_is_webp(int file)
            memcmp(head + 8, "WEBP", 4) == 0;
 }
 
+bool kiln_file_is_tiff(int file)
+{
+    uint8_t head[4];
+    return read_at(file, 0, head, sizeof head) &&
+           (memcmp(head, "II*\0", 4) == 0 || memcmp(head, "MM\0*", 4) == 0 ||
+            memcmp(head, "II+\0", 4) == 0 || memcmp(head, "MM\0+", 4) == 0);
+}
+
 static bool is_animated_webp(int file)
 {
     uint8_t chunk[9];

@@ -8,7 +8,8 @@
  * pixels are not looked at. */
 bool kiln_file_is_animated(int file);
 
-/* Returns whether an open file is a WebP. */
+/* Return whether an open file is a WebP, or a TIFF, which may have several pages. */
 bool kiln_file_is_webp(int file);
+bool kiln_file_is_tiff(int file);
 
 #endif
