@@ -174,11 +174,24 @@ static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *pa
     return set_option(codec, "pred", "sub"); /* the fastest filter that helps */
 }
 
+/* Warns of frames that browsers show for a tenth of a second: those of less than 11 ms. */
+static void warn_of_browsers(const struct kiln_output_params *params, const char *format)
+{
+    enum { SHORTEST_MS = 11 };
+    if ((uint64_t)params->fps_den * 1000 < (uint64_t)params->fps_num * SHORTEST_MS)
+        kiln_log_write(&params->log, KILN_LOG_WARNING,
+                       "%s: browsers play %s at %.6g frames a second as slowly as at 10; they play "
+                       "at most %d as they should",
+                       params->path, format, (double)params->fps_num / params->fps_den,
+                       1000 / SHORTEST_MS);
+}
+
 /* Sets the delay after the last frame, since the muxer knows only those between frames. APNG stores
  * delays as fractions of 16-bit numbers; the muxer rounds the others in the same way. */
 static int prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
 {
     AVRational delay;
+    warn_of_browsers(params, "APNG");
     if (!kiln_ff.av_reduce(&delay.num, &delay.den, params->fps_den, params->fps_num,
                            MAX_APNG_DELAY))
         kiln_log_write(&params->log, KILN_LOG_WARNING,
@@ -220,6 +233,13 @@ static bool tune_webp(AVCodecContext *codec, const struct kiln_output_params *pa
     return set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
 }
 
+static int prepare_webp(const struct kiln_output_params *params, AVDictionary **options)
+{
+    (void)options;
+    warn_of_browsers(params, "WebP");
+    return 0;
+}
+
 static const struct kiln_video_settings webp = {
     .muxer = "webp",
     .encoder = "libwebp_anim",
@@ -231,6 +251,7 @@ static const struct kiln_video_settings webp = {
     .max_edge = MAX_WEBP_EDGE,
     .muxer_options = "loop=0",
     .tune = tune_webp,
+    .prepare = prepare_webp,
 };
 
 const struct kiln_format kiln_format_webp = {
