@@ -4,6 +4,7 @@
  * it is NULL outside of kiln_avlog_begin and kiln_avlog_end. */
 #include "base/ffmpeg.h"
 
+#include <locale.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,8 +82,19 @@ static void receive(void *context, int level, const char *format, va_list args)
         kiln_log_write(current->log, KILN_LOG_DEBUG, "ffmpeg: %s", line);
 }
 
+/* FFmpeg and its encoders write numbers into files as the thread's locale has them. */
+static locale_t c_locale;
+
+static void make_c_locale(void)
+{
+    c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+}
+
 void kiln_avlog_begin(struct kiln_avlog *avlog)
 {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_c_locale);
+    avlog->locale = uselocale(c_locale);
     kiln_ff.av_log_set_callback(receive);
     avlog->outer = current;
     avlog->first_error[0] = '\0';
@@ -92,4 +104,5 @@ void kiln_avlog_begin(struct kiln_avlog *avlog)
 void kiln_avlog_end(struct kiln_avlog *avlog)
 {
     current = avlog->outer;
+    uselocale(avlog->locale);
 }

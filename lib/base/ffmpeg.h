@@ -13,6 +13,7 @@
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 #include <libswscale/swscale.h>
+#include <locale.h>
 
 #include "base/library.h"
 
@@ -129,11 +130,13 @@ enum kiln_ffmpeg_part {
  * message names its Debian package. Any thread may call it at any time. */
 bool kiln_ffmpeg_open(enum kiln_ffmpeg_part part, struct kiln_error *error);
 
-/* Collects the messages of the FFmpeg calls that one thread makes between begin and end. */
+/* Collects the messages of the FFmpeg calls that one thread makes between begin and end, where the
+ * thread has the locale C, so that files have the same bytes in every locale. */
 struct kiln_avlog {
     const struct kiln_log *log; /* gets warnings and errors as debug lines; NULL: nothing does */
     char first_error[192];      /* the first message of level error or worse, "" if none came */
     struct kiln_avlog *outer;   /* of the pair around this one; kiln_avlog_begin sets it */
+    locale_t locale;            /* of the thread outside of the pair */
 };
 
 /* Between begin and end, FFmpeg's messages from this thread go to avlog. All other messages go to
