@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/log.h"
 
 struct kiln_ffmpeg kiln_ff;
@@ -41,12 +42,18 @@ static struct library {
     LIBRARY("libavformat", LIBAVFORMAT_VERSION_MAJOR, format_functions),
 };
 
+/* FFmpeg and its encoders write numbers into files as the thread's locale has them. This one is set
+ * while they run. */
+static locale_t c_locale;
+
 bool kiln_ffmpeg_open(enum kiln_ffmpeg_part part, struct kiln_error *error)
 {
     static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
     const size_t count = part == KILN_FFMPEG_CLIPS ? 4 : 3;
     pthread_mutex_lock(&mutex);
-    bool ok = true;
+    if (!c_locale)
+        c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    bool ok = c_locale || kiln_error_no_memory(error, "FFmpeg");
     for (size_t i = 0; ok && i < count; i++) {
         struct library *library = &libraries[i];
         ok = library->is_open || kiln_library_open(library->file, library->package,
@@ -82,18 +89,8 @@ static void receive(void *context, int level, const char *format, va_list args)
         kiln_log_write(current->log, KILN_LOG_DEBUG, "ffmpeg: %s", line);
 }
 
-/* FFmpeg and its encoders write numbers into files as the thread's locale has them. */
-static locale_t c_locale;
-
-static void make_c_locale(void)
-{
-    c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-}
-
 void kiln_avlog_begin(struct kiln_avlog *avlog)
 {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, make_c_locale);
     avlog->locale = uselocale(c_locale);
     kiln_ff.av_log_set_callback(receive);
     avlog->outer = current;

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -24,10 +25,16 @@ bool kiln_journal_path(const char *output, struct kiln_shard shard, char path[KI
     char part[32] = "";
     if (shard.count > 0)
         snprintf(part, sizeof part, ".%u-of-%u", shard.index + 1, shard.count);
-    return snprintf(path, KILN_PATH_SIZE, "%s%s" KILN_JOURNAL_SUFFIX, output, part) <
-               KILN_PATH_SIZE ||
-           kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes", output,
-                          KILN_PATH_SIZE - 1);
+    if (snprintf(path, KILN_PATH_SIZE, "%s%s" KILN_JOURNAL_SUFFIX, output, part) >= KILN_PATH_SIZE)
+        return kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes",
+                              output, KILN_PATH_SIZE - 1);
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const size_t length = strlen(name);
+    return length <= NAME_MAX ||
+           kiln_error_set(error, KILN_USAGE,
+                          "%.200s...: with \"%s" KILN_JOURNAL_SUFFIX
+                          "\" for the journal, the name has %zu bytes; allowed are %d",
+                          output, part, length, NAME_MAX);
 }
 
 /* ---- writing --------------------------------------------------------------------------------- */

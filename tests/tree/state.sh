@@ -17,6 +17,8 @@ allowed=(
     "ffmpeg.c.o libraries"
     "ffmpeg.c.o mutex.0"
     "ffmpeg.c.o kiln_ff"
+    # The locale C, which never changes, and which FFmpeg's functions run in.
+    "ffmpeg.c.o c_locale"
     # The handle of libdeflate, which a process opens once.
     "libdeflate.c.o library"
     "libdeflate.c.o is_open.1"

@@ -226,3 +226,9 @@ $ sums() { ffmpeg -nostdin -loglevel error "$@" -f framemd5 - | awk -F ', *' '!/
 1|4
 1|4
 1|4
+
+A name that leaves no room for the journal's is an error of the command line.
+
+$ kiln render scenes/tiny.yaml -q -o "$(printf 'a%.0s' {1..240}).png" --shard 1/2 2>&1 | sed 's/a\{20,\}/aaa/g'; echo "${PIPESTATUS[0]}"
+1|kiln: aaa...: with ".1-of-2.journal" for the journal, the name has 259 bytes; allowed are 255
+1|2
