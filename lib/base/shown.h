@@ -11,9 +11,13 @@
  * text gives the character 0, of 1 byte. */
 size_t kiln_shown_character(const char *text, uint32_t *character);
 
-/* Returns whether a character must be escaped, because it does more than show its glyph: controls
- * (C0 with line ends and ESC, DEL, C1), line and paragraph separators, and bidirectional marks and
- * overrides, which make neighbouring text look different. */
+/* Returns whether a character must be escaped, because it does more than show its glyph, or has
+ * none: controls (C0 with line ends and ESC, DEL, C1), line and paragraph separators, bidirectional
+ * marks and overrides, which make neighbouring text look different, spaces other than the usual
+ * one, and what has no width. */
 bool kiln_shown_needs_escape(uint32_t character);
+
+/* Writes the code of a character, such as "\u00a0", or of a byte that is no valid UTF-8. */
+void kiln_shown_escape(uint32_t character, bool is_byte, char out[12]);
 
 #endif

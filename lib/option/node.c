@@ -73,11 +73,12 @@ void kiln_node_quote(char out[64], const char *text)
             return;
         }
         uint32_t character;
+        char escaped[12] = "";
         if (kiln_shown_character(text, &character) == 0 || kiln_shown_needs_escape(character))
-            out[length++] = '?';
-        else
-            for (size_t i = 0; i < bytes; i++)
-                out[length++] = text[i];
+            kiln_shown_escape(character, bytes == 0, escaped);
+        const size_t size = *escaped ? strlen(escaped) : bytes;
+        memcpy(out + length, *escaped ? escaped : text, size);
+        length += size;
         text += bytes ? bytes : 1;
     }
     out[length] = '\0';

@@ -48,7 +48,7 @@ static const struct bad keys[] = {
      ":2:1: empty key"},
     {"kiln: 1\n"
      "\"a\\e[31mb\": 3\n",
-     ":2:1: a?[31mb: unknown key (there are: kiln, seed, output, simulation, camera, backdrop, "
+     ":2:1: a\\x1b[31mb: unknown key (there are: kiln, seed, output, simulation, camera, backdrop, "
      "systems, post)"},
     {"seed: 1\n", ":1:1: kiln: the key is missing and must be given"},
     {"kiln: 2\n", ":1:7: kiln: 2 is out of range; allowed is 1"},

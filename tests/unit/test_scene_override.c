@@ -108,7 +108,7 @@ static const struct {
 } bad[] = {
     {"seed", "--set seed: expected KEY=VALUE", KILN_USAGE},
     {"=5", "--set =5: expected KEY=VALUE", KILN_USAGE},
-    {"a\x1b[3m=5", "--set a?[3m=5: expected KEY=VALUE", KILN_USAGE},
+    {"a\x1b[3m=5", "--set a\\x1b[3m=5: expected KEY=VALUE", KILN_USAGE},
     {"seed=", "--set seed: the value after '=' is empty; '#' begins a comment", KILN_INVALID_INPUT},
     {"seed=[1", "--set seed: not valid YAML: flow sequence without a closing bracket",
      KILN_INVALID_INPUT},

@@ -39,6 +39,9 @@ static void what_acts_is_escaped(void **state)
          "\\u009b2J \\u0080"},
         {RLO "gpj.exe" PDF LRI "a" PDI, "\\u202egpj.exe\\u202c\\u2066a\\u2069"},
         {"\xe2\x80\x8e\xe2\x80\x8f\xd8\x9c\xe2\x80\xa8", "\\u200e\\u200f\\u061c\\u2028"},
+        {"a\xc2\xa0"
+         "b\xe2\x80\x8b\xe3\x80\x80\xef\xbb\xbf c",
+         "a\\u00a0b\\u200b\\u3000\\ufeff c"},
         {"\xff\xc3(\xed\xa0\x80\xc0\x80", "\\xff\\xc3(\\xed\\xa0\\x80\\xc0\\x80"},
         {"end \xe2\x80", "end \\xe2\\x80"},
         {"\\x1b stays", "\\x1b stays"},

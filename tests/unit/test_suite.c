@@ -223,8 +223,8 @@ static void odd_names_are_errors_of_their_tests(void **state)
     expect_sanitized("my fire.test.yaml", "my_fire", "my fire");
     expect_sanitized("./-q.test.yaml", "_q", "-q");
     expect_sanitized("..test.yaml", "_", ".");
-    expect_sanitized("a\xe2\x80\x8b.test.yaml", "a___", "a\xe2\x80\x8b");
-    expect_sanitized("a\xff.test.yaml", "a_", "a?");
+    expect_sanitized("a\xe2\x80\x8b.test.yaml", "a___", "a\\u200b");
+    expect_sanitized("a\xff.test.yaml", "a_", "a\\xff");
     /* The others run. */
     test_write_file("fine.test.yaml", fire_test);
     static const char *const files[] = {"my fire.test.yaml", "fine.test.yaml"};
@@ -279,7 +279,8 @@ static void names_are_chosen(void **state)
     params.name_count = 1;
     expect_usage(&params, "no test has the name 'effects/fra' (did you mean 'effects/far'?)");
     params.names = strange;
-    expect_usage(&params, "no test has the name 'nothing?[31m'; 'kiln test list' lists the tests");
+    expect_usage(&params,
+                 "no test has the name 'nothing\\x1b[31m'; 'kiln test list' lists the tests");
 }
 
 static void shards_share_the_tests(void **state)

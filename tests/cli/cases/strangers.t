@@ -7,7 +7,7 @@ $ kiln check wind.yaml
 = 3
 $ printf 'kiln: 1\nsystems: {"\342\200\256gpj": {emit: {rat: 1}}}\n' >over.yaml
 $ kiln check over.yaml
-2|over.yaml:2:11: systems.?gpj: a name starts with a letter and has at most 32 letters, digits, '_' and '-'
+2|over.yaml:2:11: systems.\u202egpj: a name starts with a letter and has at most 32 letters, digits, '_' and '-'
 = 3
 $ kiln check "$(printf 'no\033]0;title\007 such\nfile.yaml')"
 2|no\x1b]0;title\x07 such\nfile.yaml: No such file or directory
