@@ -95,9 +95,12 @@ struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
 
-/* Decodes all frames of a WebP. `take` owns each image; it returns false if it wants no more. */
-bool decode_webp_frames(struct decode_picture *picture,
-                        bool (*take)(void *user, struct kiln_asset_image *image), void *user);
+/* Takes an image, which it owns from then on. Returns false if no more are wanted. */
+typedef bool decode_take(void *user, struct kiln_asset_image *image);
+
+/* Decode the frames of an animation, or the one frame of a still picture, one by one. */
+bool decode_webp_frames(struct decode_picture *picture, decode_take *take, void *user);
+bool decode_gif_frames(struct decode_picture *picture, decode_take *take, void *user);
 
 /* Open the libraries of pictures, before the process is confined. */
 bool decode_jpeg_begin(struct kiln_error *error);

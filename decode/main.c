@@ -179,7 +179,10 @@ static bool send_frame(void *user, struct kiln_asset_image *image)
 static void serve_frames(struct decode_picture *picture)
 {
     send_text(KILN_DECODE_READY, KILN_VERSION);
-    if (decode_webp_frames(picture, send_frame, NULL))
+    const bool ok = picture->format == KILN_PICTURE_GIF
+                        ? decode_gif_frames(picture, send_frame, NULL)
+                        : decode_webp_frames(picture, send_frame, NULL);
+    if (ok)
         send_text(KILN_DECODE_END, "");
     else
         send_failure(picture->error, picture);
@@ -200,7 +203,8 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
     struct kiln_asset_image *image = NULL;
     picture.bytes = bytes;
-    if (bytes && request->frames && kind == KILN_DECODE_WEBP) {
+    const bool has_frames = kind == KILN_DECODE_WEBP || kind == KILN_DECODE_PICTURE;
+    if (bytes && request->frames && has_frames) {
         serve_frames(&picture);
         free(bytes);
         return;

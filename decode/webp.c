@@ -145,7 +145,7 @@ static struct kiln_asset_image *copy_frame(struct decode_picture *picture, const
 /* Shows the frames of an animation until `take` says that no more are wanted. False: a frame is
  * broken. */
 static bool show_frames(struct decode_picture *picture, WebPDemuxer *file, WebPAnimDecoder *decoder,
-                        bool (*take)(void *user, struct kiln_asset_image *image), void *user)
+                        decode_take *take, void *user)
 {
     const uint32_t width = webp.WebPDemuxGetI(file, WEBP_FF_CANVAS_WIDTH);
     const uint32_t height = webp.WebPDemuxGetI(file, WEBP_FF_CANVAS_HEIGHT);
@@ -166,8 +166,8 @@ static bool show_frames(struct decode_picture *picture, WebPDemuxer *file, WebPA
     return frames > 0 || refuse(picture);
 }
 
-static bool decode_animation(struct decode_picture *picture, WebPDemuxer *file,
-                             bool (*take)(void *user, struct kiln_asset_image *image), void *user)
+static bool decode_animation(struct decode_picture *picture, WebPDemuxer *file, decode_take *take,
+                             void *user)
 {
     const WebPData data = {picture->bytes, picture->size};
     WebPAnimDecoderOptions options;
@@ -188,8 +188,7 @@ static bool decode_animation(struct decode_picture *picture, WebPDemuxer *file,
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-bool decode_webp_frames(struct decode_picture *picture,
-                        bool (*take)(void *user, struct kiln_asset_image *image), void *user)
+bool decode_webp_frames(struct decode_picture *picture, decode_take *take, void *user)
 {
     WebPDemuxer *file = open_file(picture);
     if (!file)

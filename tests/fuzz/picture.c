@@ -22,15 +22,32 @@ static enum kiln_picture_format format_of(const uint8_t *data, size_t size)
     return KILN_PICTURE_JPEG;
 }
 
+static bool keep_last(void *user, struct kiln_asset_image *image)
+{
+    struct kiln_asset_image **last = user;
+    kiln_asset_image_destroy(last);
+    *last = image;
+    return true;
+}
+
+static struct kiln_asset_image *drop(struct kiln_asset_image *image)
+{
+    kiln_asset_image_destroy(&image);
+    return NULL;
+}
+
 static struct kiln_asset_image *decode(struct decode_picture *picture)
 {
+    struct kiln_asset_image *last = NULL;
     switch (picture->format) {
     case KILN_PICTURE_JPEG:
         return decode_jpeg(picture);
     case KILN_PICTURE_TIFF:
         return decode_tiff(picture);
     case KILN_PICTURE_WEBP:
-        return decode_webp(picture);
+        return decode_webp_frames(picture, keep_last, &last) ? last : drop(last);
+    case KILN_PICTURE_GIF:
+        return decode_gif_frames(picture, keep_last, &last) ? last : drop(last);
     default:
         return decode_by_ffmpeg(picture);
     }

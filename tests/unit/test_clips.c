@@ -549,14 +549,14 @@ static void what_was_cut_short_is_not_read(void **state)
 {
     (void)state;
     static const char CUT[] = "the video is cut short",
-                      BROKEN[] = "the video is broken or cut short";
-    static const struct {
-        const char *suffix, *message;
-    } cases[] = {{"gif", CUT}, {"apng", CUT}, {"mkv", BROKEN}, {"webm", BROKEN}, {"mov", CUT}};
+                      BROKEN[] = "the video is broken or cut short",
+                      GIF[] = "the GIF image is broken or cut short";
+    static const char *const cases[][2] = {
+        {"gif", GIF}, {"apng", CUT}, {"mkv", BROKEN}, {"webm", BROKEN}, {"mov", CUT}};
     const struct kiln_frame_range range = {0, 9};
     char path[64];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        snprintf(path, sizeof path, "%s/clip.%s", folder, cases[i].suffix);
+        snprintf(path, sizeof path, "%s/clip.%s", folder, cases[i][0]);
         const struct kiln_output_params params = test_output_params(path, &range);
         write_clip(&params);
         uint8_t *bytes;
@@ -573,7 +573,7 @@ static void what_was_cut_short_is_not_read(void **state)
             kiln_asset_image_destroy(&image);
         }
         assert_false(good);
-        expect_error_decoding(&error, KILN_INVALID_INPUT, "%s: %s", path, cases[i].message);
+        expect_error_decoding(&error, KILN_INVALID_INPUT, "%s: %s", path, cases[i][1]);
         kiln_video_in_close(&video);
         unlink(path);
     }

@@ -19,6 +19,12 @@ bool kiln_file_is_webp(int file)
            memcmp(head + 8, "WEBP", 4) == 0;
 }
 
+bool kiln_file_is_gif(int file)
+{
+    uint8_t head[4];
+    return read_at(file, 0, head, sizeof head) && memcmp(head, "GIF8", 4) == 0;
+}
+
 bool kiln_file_is_tiff(int file)
 {
     uint8_t head[4];

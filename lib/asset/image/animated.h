@@ -8,8 +8,9 @@
  * pixels are not looked at. */
 bool kiln_file_is_animated(int file);
 
-/* Return whether an open file is a WebP, or a TIFF, which may have several pages. */
+/* Return whether an open file is a WebP, a GIF, or a TIFF, which may have several pages. */
 bool kiln_file_is_webp(int file);
+bool kiln_file_is_gif(int file);
 bool kiln_file_is_tiff(int file);
 
 #endif

@@ -37,15 +37,17 @@ bool kiln_video_in_has_suffix(const char *path)
 static bool begin(struct kiln_video_in *video, int file, struct kiln_error *error)
 {
     struct kiln_received *received = &video->received;
-    const bool webp = kiln_file_is_webp(file);
+    const bool webp = kiln_file_is_webp(file), gif = kiln_file_is_gif(file);
     const struct kiln_decode_request request = {
-        .format = KILN_PICTURE_WEBP,
+        .format = gif ? KILN_PICTURE_GIF : KILN_PICTURE_WEBP,
         .frames = true,
-        .most_bytes = webp ? KILN_MAX_IMAGE_BYTES : UINT64_MAX,
+        .most_bytes = webp || gif ? KILN_MAX_IMAGE_BYTES : UINT64_MAX,
         .most_pixels = KILN_MAX_IMAGE_PIXELS,
     };
-    received->helper =
-        kiln_loader_take(received->loader, webp ? KILN_DECODE_WEBP : KILN_DECODE_VIDEO, error);
+    const enum kiln_decode_kind kind = webp  ? KILN_DECODE_WEBP
+                                       : gif ? KILN_DECODE_PICTURE
+                                             : KILN_DECODE_VIDEO;
+    received->helper = kiln_loader_take(received->loader, kind, error);
     if (!received->helper)
         return false;
     struct kiln_error reason = {0};

@@ -49,11 +49,13 @@ enum kiln_mesh_format { KILN_MESH_OBJ, KILN_MESH_GLTF, KILN_MESH_GLB };
 /* Asks for a file to be decoded. The file's descriptor is sent with it. A video needs one request
  * for all of its frames. */
 struct kiln_decode_request {
-    uint32_t format;      /* enum kiln_picture_format or kiln_mesh_format; unused for a video */
-    uint32_t uvs;         /* of a mesh: texture coordinates are wanted */
-    uint32_t moving;      /* of a mesh: nodes, bones and clips are wanted */
-    uint32_t raw;         /* of a picture: numbers are neither converted nor turned */
-    uint32_t frames;      /* of a WebP: all frames are wanted, answered like those of a video */
+    uint32_t format; /* enum kiln_picture_format or kiln_mesh_format; unused for a video */
+    uint32_t uvs;    /* of a mesh: texture coordinates are wanted */
+    uint32_t moving; /* of a mesh: nodes, bones and clips are wanted */
+    uint32_t raw;    /* of a picture: numbers are neither converted nor turned */
+    /* of a WebP (KILN_DECODE_WEBP) or GIF (KILN_DECODE_PICTURE): all frames are wanted, and
+     * answered like those of a video */
+    uint32_t frames;
     uint32_t page;        /* of a picture: which page of the file; 0: the first */
     uint32_t sky;         /* of a picture: it is wrapped around the scene; cube maps are refused */
     uint64_t most_bytes;  /* size limit of the file in bytes */
