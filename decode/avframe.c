@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "decode.h"
 
@@ -85,6 +86,55 @@ static enum kiln_code convert_integer(struct conversion *conversion)
                           : fail(conversion, KILN_INVALID_INPUT, "the image cannot be converted");
 }
 
+/* Returns whether a pixel is bytes of red, green, blue (and alpha), or of grey, of up to 8 bits
+ * each, or an index into a palette. */
+static bool is_plain(const AVPixFmtDescriptor *layout)
+{
+    const uint64_t other = AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_PLANAR |
+                           AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
+    const bool colored = (layout->flags & AV_PIX_FMT_FLAG_RGB) && layout->nb_components >= 3;
+    return !(layout->flags & other) && layout->comp[0].depth <= 8 &&
+           ((layout->flags & AV_PIX_FMT_FLAG_PAL) || colored);
+}
+
+/* Returns a component of a pixel, whose range is all of 8 bits however many the file has. swscale
+ * would make 248 of white of 5 bits. */
+static uint8_t component_at(const uint8_t *pixel, const AVPixFmtDescriptor *layout, int c)
+{
+    const AVComponentDescriptor *component = &layout->comp[c];
+    const uint8_t *at = pixel + component->offset;
+    const bool big = (layout->flags & AV_PIX_FMT_FLAG_BE) != 0;
+    const bool one_byte = component->shift + component->depth <= 8;
+    const uint32_t most = (1u << component->depth) - 1;
+    const uint32_t word = one_byte ? at[big && component->step == 2 && component->depth < 8]
+                          : big    ? (uint32_t)(at[0] << 8 | at[1])
+                                   : (uint32_t)(at[1] << 8 | at[0]);
+    const uint32_t value = word >> component->shift & most;
+    return (uint8_t)((value * 255 + most / 2) / most);
+}
+
+static void copy_plain(const AVFrame *frame, const AVPixFmtDescriptor *layout,
+                       const struct kiln_asset_image *image)
+{
+    uint8_t *out = image->pixels;
+    for (uint32_t y = 0; y < image->height; y++) {
+        const uint8_t *row = frame->data[0] + (ptrdiff_t)y * frame->linesize[0];
+        for (uint32_t x = 0; x < image->width; x++, out += 4) {
+            uint32_t color;
+            if (layout->flags & AV_PIX_FMT_FLAG_PAL) {
+                memcpy(&color, frame->data[1] + 4 * (size_t)row[x], sizeof color);
+                for (int c = 0; c < 4; c++) /* the number is alpha, red, green, blue */
+                    out[c] = (uint8_t)(color >> (c == 3 ? 24 : 16 - 8 * c));
+                continue;
+            }
+            const uint8_t *pixel = row + (size_t)x * (size_t)layout->comp[0].step;
+            for (int c = 0; c < 3; c++)
+                out[c] = component_at(pixel, layout, c);
+            out[3] = layout->nb_components > 3 ? component_at(pixel, layout, 3) : 255;
+        }
+    }
+}
+
 static enum kiln_code convert(struct conversion *conversion)
 {
     const AVFrame *frame = conversion->frame;
@@ -107,7 +157,13 @@ static enum kiln_code convert(struct conversion *conversion)
     image->pixels = malloc(kiln_asset_image_bytes(image) + SLACK);
     if (!image->pixels)
         return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
-    enum kiln_code code = is_float ? interleave_float(conversion) : convert_integer(conversion);
+    enum kiln_code code = KILN_OK;
+    if (is_float)
+        code = interleave_float(conversion);
+    else if (is_plain(layout))
+        copy_plain(frame, layout, image);
+    else
+        code = convert_integer(conversion);
     image->channels = layout->nb_components;
     if (code == KILN_OK && (layout->flags & AV_PIX_FMT_FLAG_PAL))
         decode_find_alpha(image);

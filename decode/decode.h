@@ -92,6 +92,7 @@ struct kiln_asset_image *decode_png(struct decode_picture *picture);
 struct kiln_asset_image *decode_jpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_webp(struct decode_picture *picture);
 struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
+struct kiln_asset_image *decode_gif(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
 

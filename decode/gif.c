@@ -184,8 +184,12 @@ bool decode_gif_frames(struct decode_picture *picture, decode_take *take, void *
         gif.palette = gif.at = HEAD + palette_bytes(picture->bytes[10]);
     ok = ok && (gif.at < picture->size || refuse(&gif));
     size_t end = 1, frames = 0;
-    while (ok && more && end > 0) {
-        ok = find_frame(&gif, &end) && (end == 0 || show_frame(&gif, end, take, user, &more));
+    while (ok && end > 0) {
+        ok = find_frame(&gif, &end);
+        if (ok && end > 0 && more)
+            ok = show_frame(&gif, end, take, user, &more);
+        else if (end > 0)
+            gif.at = end; /* frames that are not wanted must be there, too */
         frames += end > 0;
     }
     ok = ok && (frames > 0 || refuse(&gif));
@@ -193,4 +197,19 @@ bool decode_gif_frames(struct decode_picture *picture, decode_take *take, void *
     free(gif.before);
     free(gif.packet);
     return ok;
+}
+
+static bool take_first(void *user, struct kiln_asset_image *image)
+{
+    struct kiln_asset_image **first = user;
+    *first = image;
+    return false;
+}
+
+struct kiln_asset_image *decode_gif(struct decode_picture *picture)
+{
+    struct kiln_asset_image *image = NULL;
+    if (!decode_gif_frames(picture, take_first, &image))
+        kiln_asset_image_destroy(&image);
+    return image;
 }

@@ -153,7 +153,8 @@ static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
     if (kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR)
         return decode_exr(picture);
     if (kind == KILN_DECODE_PICTURE)
-        return decode_by_ffmpeg(picture);
+        return picture->format == KILN_PICTURE_GIF ? decode_gif(picture)
+                                                   : decode_by_ffmpeg(picture);
     switch (picture->format) {
     case KILN_PICTURE_JPEG:
         return decode_jpeg(picture);

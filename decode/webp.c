@@ -216,5 +216,7 @@ static bool take_first(void *user, struct kiln_asset_image *image)
 struct kiln_asset_image *decode_webp(struct decode_picture *picture)
 {
     struct kiln_asset_image *image = NULL;
-    return decode_webp_frames(picture, take_first, &image) ? image : NULL;
+    if (!decode_webp_frames(picture, take_first, &image))
+        kiln_asset_image_destroy(&image);
+    return image;
 }
