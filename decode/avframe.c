@@ -106,7 +106,7 @@ static uint8_t component_at(const uint8_t *pixel, const AVPixFmtDescriptor *layo
     const bool big = (layout->flags & AV_PIX_FMT_FLAG_BE) != 0;
     const bool one_byte = component->shift + component->depth <= 8;
     const uint32_t most = (1u << component->depth) - 1;
-    const uint32_t word = one_byte ? at[big && component->step == 2 && component->depth < 8]
+    const uint32_t word = one_byte ? at[big]
                           : big    ? (uint32_t)(at[0] << 8 | at[1])
                                    : (uint32_t)(at[1] << 8 | at[0]);
     const uint32_t value = word >> component->shift & most;

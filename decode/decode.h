@@ -41,7 +41,7 @@ struct decode_picture {
     struct kiln_error *error;
 };
 
-/* What a file says of its numbers besides their size. */
+/* The struct tells how the stored numbers become colours, as the file says it. */
 struct decode_meaning {
     const uint8_t *profile; /* an ICC profile, or NULL */
     size_t profile_size;

@@ -52,7 +52,8 @@ bool decode_exr_pixels(struct exr_reading *reading);
 float *decode_exr_target(const struct exr_reading *reading, enum exr_role role, size_t *step,
                          size_t *stride);
 
-/* The same by OpenEXR's C++. deep: flattens the samples of a deep part. */
+/* Decodes the channels of the layer by OpenEXR's C++ library. deep: flattens the samples of a deep
+ * part. */
 bool decode_exr_more(struct exr_reading *reading, bool deep);
 bool decode_exr_more_is_ready(void);
 

@@ -12,7 +12,7 @@ extern "C" {
 
 enum { KILN_OPENEXR_CHANNELS = 6 };
 
-/* Where the samples of a channel go, as floats. */
+/* The struct says where the module writes the samples of one channel, as floats. */
 struct kiln_openexr_channel {
     const char *name; /* in the part; NULL: none */
     float *first;     /* for the first sample of the data window */

@@ -2,7 +2,6 @@
  * lies in the module kiln-openexr.so beside kiln-decode. A file comes here if OpenEXR's C core
  * cannot decode it. DWAA and DWAB are decoded by floats and the processor's vectors, so their
  * pixels may differ a little from machine to machine. */
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include "base/library.h"
 #include "exr.h"
 #include "exr_module.h"
+#include "kiln_program.h"
 
 #define MODULE "kiln-openexr.so"
 
@@ -30,8 +30,8 @@ static bool find_module(char path[KILN_PATH_SIZE])
             KILN_PATH_SIZE &&
         access(path, R_OK) == 0)
         return true;
-    const char *set = getenv("KILN_LIBEXEC_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
-    return set && *set && snprintf(path, KILN_PATH_SIZE, "%s/" MODULE, set) < KILN_PATH_SIZE;
+    const char *set = kiln_environment("KILN_LIBEXEC_DIR");
+    return set && snprintf(path, KILN_PATH_SIZE, "%s/" MODULE, set) < KILN_PATH_SIZE;
 }
 
 bool decode_exr_more_begin(struct kiln_error *error)

@@ -2,13 +2,13 @@
  * OpenEXR's C core. The core decompresses a chunk to the samples as they lie in the file; this file
  * turns the samples into floats, since the core's own routines for that write to address 0 in some
  * files whose channels are not all asked for. */
-#include <math.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "exr.h"
+#include "values.h"
 
-/* What the core hands back to unpack for each chunk. */
+/* OpenEXR's core passes a chunk to `unpack`, which writes its samples into the picture. */
 struct chunk {
     struct exr_reading *reading;
     uint32_t x, y; /* place of its first pixel in the data window */
@@ -32,36 +32,16 @@ static uint32_t word_at(const uint8_t *bytes)
            (uint32_t)bytes[3] << 24;
 }
 
-static float float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-/* Returns the value of a half float. Each has an equal float. */
-static float half_at(const uint8_t *bytes)
-{
-    const uint32_t half = (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8;
-    const uint32_t sign = (half & 0x8000u) << 16, exponent = half >> 10 & 31u,
-                   fraction = half & 1023u;
-    if (exponent == 0) {
-        const float value = (float)fraction * 0x1p-24f;
-        return sign ? -value : value;
-    }
-    return float_of(sign | (exponent == 31 ? 0x7f800000u : (exponent + 112u) << 23) |
-                    fraction << 13);
-}
-
 /* Converts a row of samples of one channel. */
 static void convert_row(struct exr_reading *reading, uint16_t type, const uint8_t *bytes,
                         uint32_t count, float *target, size_t step)
 {
     for (uint32_t i = 0; i < count; i++, target += step) {
         if (type == EXR_PIXEL_HALF) {
-            *target = half_at(bytes + (size_t)2 * i);
+            *target = decode_half((uint32_t)bytes[2 * (size_t)i] |
+                                  (uint32_t)bytes[2 * (size_t)i + 1] << 8);
         } else if (type == EXR_PIXEL_FLOAT) {
-            *target = float_of(word_at(bytes + (size_t)4 * i));
+            *target = decode_float(word_at(bytes + (size_t)4 * i));
         } else {
             const uint32_t whole = word_at(bytes + (size_t)4 * i);
             *target = (float)whole;

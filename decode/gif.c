@@ -162,7 +162,8 @@ static bool show_frame(struct gif *gif, size_t end, decode_take *take, void *use
     const size_t bytes = kiln_asset_image_bytes(frame);
     const int disposal = gif->control[0] >> 2 & 7;
     const struct place place = place_of(gif, gif->picture->bytes + gif->at);
-    memcpy(gif->before, gif->canvas->pixels, bytes);
+    if (disposal == TO_BEFORE)
+        memcpy(gif->before, gif->canvas->pixels, bytes);
     put(gif, place, frame);
     memcpy(frame->pixels, gif->canvas->pixels, bytes);
     decode_find_alpha(frame);

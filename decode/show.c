@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "decode.h"
+#include "values.h"
 
 void decode_find_alpha(struct kiln_asset_image *image)
 {
@@ -28,7 +29,7 @@ static void show_ink(struct kiln_asset_image *image)
     }
 }
 
-/* The same for numbers of 16 bits. */
+/* show_deep_ink is show_ink for numbers of 16 bits. */
 static void show_deep_ink(struct kiln_asset_image *image)
 {
     uint16_t *pixel = image->pixels;
@@ -57,38 +58,24 @@ static void put_alpha(struct kiln_asset_image *image, const void *alpha)
 
 /* ---- associated alpha ------------------------------------------------------------------------ */
 
-static uint32_t value_at(const struct kiln_asset_image *image, size_t at)
-{
-    return image->type == KILN_IMAGE_U16 ? ((const uint16_t *)image->pixels)[at]
-                                         : ((const uint8_t *)image->pixels)[at];
-}
-
-static void set_value(struct kiln_asset_image *image, size_t at, uint32_t value)
-{
-    if (image->type == KILN_IMAGE_U16)
-        ((uint16_t *)image->pixels)[at] = (uint16_t)value;
-    else
-        ((uint8_t *)image->pixels)[at] = (uint8_t)value;
-}
-
 /* Divides colours by their alpha, or by the brightest of them where that is more, so that a profile
  * converts colours and not their products. Returns the divisor of each pixel, which the caller
  * frees, or NULL. */
 static uint16_t *divide_by_alpha(struct kiln_asset_image *image)
 {
     const size_t count = (size_t)image->width * image->height;
-    const uint32_t full = image->type == KILN_IMAGE_U16 ? 65535 : 255;
+    const uint32_t full = decode_full(image);
     uint16_t *divisors = malloc(count * sizeof *divisors);
     for (size_t i = 0; divisors && i < count; i++) {
         uint32_t most = 0;
         for (size_t c = 0; c < 4; c++) {
-            const uint32_t value = value_at(image, 4 * i + c);
+            const uint32_t value = decode_value(image, 4 * i + c);
             most = value > most ? value : most;
         }
         divisors[i] = (uint16_t)most;
         for (size_t c = 0; c < 3 && most > 0; c++) {
-            const uint64_t product = (uint64_t)value_at(image, 4 * i + c) * full;
-            set_value(image, 4 * i + c, (uint32_t)((product + most / 2) / most));
+            const uint64_t product = (uint64_t)decode_value(image, 4 * i + c) * full;
+            decode_set_value(image, 4 * i + c, (uint32_t)((product + most / 2) / most));
         }
     }
     return divisors;
@@ -97,18 +84,18 @@ static uint16_t *divide_by_alpha(struct kiln_asset_image *image)
 static void multiply_again(struct kiln_asset_image *image, const uint16_t *divisors)
 {
     const size_t count = (size_t)image->width * image->height;
-    const uint32_t full = image->type == KILN_IMAGE_U16 ? 65535 : 255;
+    const uint32_t full = decode_full(image);
     for (size_t i = 0; i < count; i++) {
         for (size_t c = 0; c < 3; c++) {
-            const uint64_t product = (uint64_t)value_at(image, 4 * i + c) * divisors[i];
-            set_value(image, 4 * i + c, (uint32_t)((product + full / 2) / full));
+            const uint64_t product = (uint64_t)decode_value(image, 4 * i + c) * divisors[i];
+            decode_set_value(image, 4 * i + c, (uint32_t)((product + full / 2) / full));
         }
     }
 }
 
 /* ---- colour ---------------------------------------------------------------------------------- */
 
-/* What became of the colours of a picture. */
+/* The enum tells whether the colours of a picture were converted to sRGB. */
 enum shown { SHOWN, UNKNOWN, FAILED };
 
 /* Converts colours by a profile with tables, or else by `color`. */

@@ -27,8 +27,8 @@ bool decode_tiff_begin(struct kiln_error *error)
 }
 
 enum {
-    MOST_BLOCK = 1 << 30, /* bytes of a decoded strip or tile */
-    MOST_IMAGES = 65536,  /* of a file, pages and others */
+    MOST_BLOCK = 1 << 30,               /* bytes of a decoded strip or tile */
+    MOST_IMAGES = KILN_MAX_IMAGE_PAGES, /* of a file, pages and others */
 };
 
 /* ---- faults ---------------------------------------------------------------------------------- */

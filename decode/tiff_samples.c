@@ -1,9 +1,9 @@
 /* This file turns samples of TIFF files into pixels. All arithmetic is kiln's own, and not that of
  * libtiff, which uses floats and powers of libm for CIELAB and YCbCr. */
-#include <math.h>
 #include <string.h>
 
 #include "tiff.h"
+#include "values.h"
 
 enum kiln_image_type decode_tiff_type(const struct tiff_samples *samples)
 {
@@ -32,19 +32,10 @@ static uint32_t integer_at(const uint8_t *row, uint32_t bits, size_t index)
     return value;
 }
 
-static float half_to_float(uint32_t half)
-{
-    const uint32_t exponent = half >> 10 & 31, fraction = half & 1023;
-    const float size = exponent == 31  ? (fraction ? NAN : INFINITY)
-                       : exponent == 0 ? ldexpf((float)fraction, -24)
-                                       : ldexpf((float)(fraction | 1024), (int)exponent - 25);
-    return half & 0x8000 ? -size : size;
-}
-
 static float float_at(const uint8_t *row, uint32_t bits, size_t index)
 {
     if (bits == 16)
-        return half_to_float(integer_at(row, 16, index));
+        return decode_half(integer_at(row, 16, index));
     if (bits == 32) {
         float value;
         memcpy(&value, row + sizeof value * index, sizeof value);
@@ -75,7 +66,7 @@ void decode_tiff_store(const struct tiff_samples *samples, const struct tiff_run
     const size_t step = apart ? 1 : 4, begin = apart ? run->pixel : 4 * run->pixel + run->slot;
     const bool is_index = samples->color == TIFF_PALETTE && run->slot == 0;
     const uint32_t bits = samples->bits, largest = (1u << bits) - 1;
-    const uint32_t full = image->type == KILN_IMAGE_U16 ? 65535 : 255;
+    const uint32_t full = decode_full(image);
     uint8_t *bytes = (uint8_t *)(apart ? ink_alpha : image->pixels);
     uint16_t *words = apart ? ink_alpha : image->pixels;
     for (uint32_t x = 0; x < run->count; x++) {
@@ -92,28 +83,9 @@ void decode_tiff_store(const struct tiff_samples *samples, const struct tiff_run
 
 /* ---- meaning --------------------------------------------------------------------------------- */
 
-static uint32_t value_at(const struct kiln_asset_image *image, size_t at)
-{
-    return image->type == KILN_IMAGE_U16 ? ((const uint16_t *)image->pixels)[at]
-                                         : ((const uint8_t *)image->pixels)[at];
-}
-
-static void set_value(struct kiln_asset_image *image, size_t at, uint32_t value)
-{
-    if (image->type == KILN_IMAGE_U16)
-        ((uint16_t *)image->pixels)[at] = (uint16_t)value;
-    else
-        ((uint8_t *)image->pixels)[at] = (uint8_t)value;
-}
-
 static size_t values_of(const struct kiln_asset_image *image)
 {
     return 4 * (size_t)image->width * image->height;
-}
-
-static uint32_t full_of(const struct kiln_asset_image *image)
-{
-    return image->type == KILN_IMAGE_U16 ? 65535 : 255;
 }
 
 static void make_opaque(struct kiln_asset_image *image)
@@ -123,7 +95,7 @@ static void make_opaque(struct kiln_asset_image *image)
         if (image->type == KILN_IMAGE_F32)
             ((float *)image->pixels)[i] = 1.0f;
         else
-            set_value(image, i, full_of(image));
+            decode_set_value(image, i, decode_full(image));
     }
 }
 
@@ -136,10 +108,10 @@ static void spread_grey(struct kiln_asset_image *image, bool inverted)
             floats[i + 1] = floats[i + 2] = floats[i];
             continue;
         }
-        const uint32_t stored = value_at(image, i);
-        const uint32_t grey = inverted ? full_of(image) - stored : stored;
+        const uint32_t stored = decode_value(image, i);
+        const uint32_t grey = inverted ? decode_full(image) - stored : stored;
         for (size_t c = 0; c < 3; c++)
-            set_value(image, i + c, grey);
+            decode_set_value(image, i + c, grey);
     }
 }
 
@@ -147,7 +119,7 @@ static void invert(struct kiln_asset_image *image)
 {
     const size_t count = values_of(image);
     for (size_t i = 0; i < count; i++)
-        set_value(image, i, full_of(image) - value_at(image, i));
+        decode_set_value(image, i, decode_full(image) - decode_value(image, i));
 }
 
 /* Turns indices into colours of 8 bits. Numbers of a map have 16 bits: level * 257 by the
@@ -185,7 +157,7 @@ static bool show_lab(const struct tiff_samples *samples, struct kiln_asset_image
     const size_t count = values_of(image);
     for (size_t i = 0; !icc && i < count; i += 4) {
         for (size_t c = 1; c < 3; c++)
-            set_value(image, i + c, value_at(image, i + c) ^ (deep ? 0x8000u : 0x80u));
+            decode_set_value(image, i + c, decode_value(image, i + c) ^ (deep ? 0x8000u : 0x80u));
     }
     const struct kiln_lab lab = {.white = {samples->white[0], samples->white[1]},
                                  .brightest = !deep ? 255.0

@@ -175,7 +175,7 @@ static bool open_numbered(struct kiln_footage *footage, const struct kiln_path_p
                            : no_memory(footage->path, error);
 }
 
-/* What a file says of its frames. */
+/* The struct holds what the first bytes and the name of a file tell of its frames. */
 struct content {
     bool is_video; /* WebP, PNG and GIF by their content, others by their names */
     bool is_tiff;

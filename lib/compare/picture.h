@@ -6,7 +6,7 @@
 #include "asset/image/image.h"
 #include "base/thread.h"
 
-/* What a file says of alpha. */
+/* The enum tells whether a file has alpha and whether any pixel is transparent. */
 enum kiln_file_alpha {
     KILN_ALPHA_NONE,
     KILN_ALPHA_SOLID, /* it has alpha, which is 1 everywhere; the picture's `alpha` is NULL */

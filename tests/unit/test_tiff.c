@@ -72,7 +72,8 @@ static void data_are_not_turned(void **state)
     kiln_asset_image_destroy(&image);
 }
 
-/* The same picture with colours multiplied by alpha in their encoding, and with straight ones. */
+/* Two files store one picture: the colours are multiplied by alpha in one, and straight in the
+ * other. */
 static void associated_light_is_that_of_straight_colours(void **state)
 {
     (void)state;

@@ -38,8 +38,8 @@ bool kiln_primaries_to_srgb(const struct kiln_primaries *primaries, double to_sr
 /* Finds how much each primary adds to the luminance of a colour. False: as above. */
 bool kiln_primaries_luminance(const struct kiln_primaries *primaries, double weights[3]);
 
-/* The same as kiln_primaries_to_srgb from the columns of a profile: XYZ of red, green and blue for
- * the white D50. */
+/* Computes the matrix of kiln_primaries_to_srgb from the columns of a profile: XYZ of red, green
+ * and blue for the white D50. */
 bool kiln_columns_to_srgb(const double xyz[3][3], double to_srgb[3][3]);
 
 /* Converts linear light of RGBA pixels to sRGB's primaries. Light outside of sRGB becomes negative.

@@ -92,7 +92,7 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 
 /* ---- decoding -------------------------------------------------------------------------------- */
 
-/* What a caller wants of a file. */
+/* The struct selects the part of a file that a caller decodes, and how. */
 struct wanted {
     const char *layer; /* NULL: the picture, whose values are finite */
     bool raw;          /* the numbers are data, not colours */

@@ -9,6 +9,7 @@
 enum {
     KILN_MAX_IMAGE_EDGE = 16384,      /* pixels a side */
     KILN_MAX_IMAGE_PIXELS = 1 << 26,  /* width * height */
+    KILN_MAX_IMAGE_PAGES = 65536,     /* of a file */
     KILN_MAX_IMAGE_BYTES = 256 << 20, /* bytes of the file */
 };
 
@@ -50,13 +51,13 @@ static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error);
 
-/* The same for numbers that are not colours, such as heights or motion: they are neither converted
- * nor turned. */
+/* Decodes a file whose numbers are not colours, such as heights or motion: they are neither
+ * converted nor turned. */
 struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, const char *path,
                                                     struct kiln_error *error);
 
-/* The same for a picture that shows all directions, by longitude and latitude. An EXR file that
- * says that it is a cube map is refused. */
+/* Decodes a picture that shows all directions, by longitude and latitude. An EXR file that says
+ * that it is a cube map is refused. */
 struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, const char *path,
                                                    struct kiln_error *error);
 

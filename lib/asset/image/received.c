@@ -21,7 +21,8 @@ static bool is_sound(const struct kiln_decode_answer *answer)
            answer->height <= KILN_MAX_IMAGE_EDGE &&
            (uint64_t)answer->width * answer->height <= KILN_MAX_IMAGE_PIXELS &&
            answer->channels >= 1 && answer->channels <= 4 && answer->type <= KILN_IMAGE_F32 &&
-           answer->srgb <= 1 && answer->premultiplied <= 1 && answer->pages >= 1;
+           answer->srgb <= 1 && answer->premultiplied <= 1 && answer->pages >= 1 &&
+           answer->pages <= KILN_MAX_IMAGE_PAGES;
 }
 
 static bool are_finite(const struct kiln_asset_image *image)
