@@ -121,8 +121,10 @@ static exr_result_t read_chunk(struct exr_reading *reading, const exr_chunk_info
     pipeline->decoding_user_data = chunk;
     pipeline->unpack_and_convert_fn = unpack;
     /* The core takes a chunk without bytes for one that needs no decompression. */
-    return info->packed_size == 0 ? EXR_ERR_CORRUPT_CHUNK
+    code = info->packed_size == 0 ? EXR_ERR_CORRUPT_CHUNK
                                   : exr_decoding_run(reading->file, reading->part, pipeline);
+    pipeline->decoding_user_data = NULL; /* the pipeline lives longer than the chunk */
+    return code;
 }
 
 static exr_result_t read_lines(struct exr_reading *reading, exr_decode_pipeline_t *pipeline)

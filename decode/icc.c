@@ -112,7 +112,7 @@ static enum decode_profile read_rgb(const uint8_t *profile, size_t size, struct 
             !read_curve(profile, size, curves[i], &color->curves[i]))
             return DECODE_PROFILE_NONE;
         for (int k = 0; k < 3; k++)
-            xyz[k][i] = fixed(tag.bytes + 8 + 4 * k);
+            xyz[k][i] = fixed(tag.bytes + 8 + 4 * (size_t)k);
     }
     return kiln_columns_to_srgb(xyz, color->to_srgb) ? DECODE_PROFILE_COLOR : DECODE_PROFILE_NONE;
 }
