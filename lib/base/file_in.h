@@ -33,7 +33,8 @@ unsigned char *kiln_file_read(const char *path, const char *what, const char *al
  * fetched (git-lfs, docs/spec.md). */
 bool kiln_file_is_lfs_pointer(int file);
 
-/* Returns whether the file at a path is a pointer of Git LFS; false also when it cannot be opened. */
+/* Returns whether the file at a path is a pointer of Git LFS; false also when it cannot be opened.
+ */
 bool kiln_path_is_lfs_pointer(const char *path);
 
 /* These are the steps of kiln_file_read, for a caller that opens the file in its own way and closes
