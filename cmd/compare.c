@@ -56,14 +56,20 @@ static const struct option options[] = {
     {.name = "layer",
      .kind = OPTION_TEXT,
      .placeholder = "LAYER",
-     .help = "Layer of EXR files to compare, such as depth or fire.",
-     .fallback = "beauty"},
+     .help = "Layer of EXR files to compare, such as beauty, depth or fire.",
+     .fallback = "all layers"},
+    {.name = "data-limit",
+     .kind = OPTION_NUMBER,
+     .placeholder = "N",
+     .help = "The largest difference that passes of two numbers in layers of data, such as depths.",
+     .fallback = "0",
+     .max = 1e30},
     {.name = "range",
      .kind = OPTION_CHOICE,
      .placeholder = "auto|ldr|hdr",
      .help = "How FLIP judges light: ldr clamps it at white, hdr judges several exposures of the "
              "reference.",
-     .fallback = "auto: hdr for EXR"},
+     .fallback = "auto: hdr if one of the pictures is EXR"},
     {.name = "ppd",
      .kind = OPTION_NUMBER,
      .placeholder = "N",
@@ -122,6 +128,7 @@ static struct kiln_compare_params read_params(const struct arguments *arguments)
     const struct option_use *diff = arguments_last(arguments, "diff");
     const struct option_use *error_map = arguments_last(arguments, "error-map");
     const struct option_use *layer = arguments_last(arguments, "layer");
+    const struct option_use *data_limit = arguments_last(arguments, "data-limit");
     const struct option_use *range = arguments_last(arguments, "range");
     const struct option_use *ppd = arguments_last(arguments, "ppd");
     const struct option_use *threshold = arguments_last(arguments, "threshold");
@@ -130,6 +137,7 @@ static struct kiln_compare_params read_params(const struct arguments *arguments)
     params.diff = diff ? diff->text : NULL;
     params.error_map = error_map ? error_map->text : NULL;
     params.layer = layer ? layer->text : params.layer;
+    params.data_limit = data_limit ? data_limit->number : params.data_limit;
     params.mode = range ? (enum kiln_compare_mode)range->choice : params.mode;
     params.pixels_per_degree = ppd ? ppd->number : params.pixels_per_degree;
     params.threshold = threshold ? threshold->number : params.threshold;
@@ -221,7 +229,9 @@ const struct command compare_command = {
         "operand is a picture, a video, a folder of pictures, or a pattern such as frame_%04d.png "
         "or frame_####.png. Pictures of folders are paired by name, pictures of patterns by "
         "number. Frames of a video are numbered from 0. A missing or extra frame is a difference, "
-        "and so is another size or other channels. Alpha is judged on black and on white.\n"
+        "and so is another size. Alpha is judged on black and on white. Of EXR files, every layer "
+        "is judged: colours by the limits, data such as depths by their numbers; a missing or "
+        "extra layer is a difference.\n"
         "\n"
         "Exit code 0: the same within the limits; 1: different; 2: usage; 3: something cannot be "
         "read or has values that are not finite outside of masks; 6: --diff or --error-map cannot "

@@ -30,6 +30,83 @@ static size_t find_column(const struct kiln_compare_result *result)
     return first;
 }
 
+static const struct kiln_compare_layer *layer_at(const struct kiln_compare_frame *frame, size_t i)
+{
+    return (const void *)((const char *)frame->layers + i * frame->layer_stride);
+}
+
+/* Returns whether a frame has more to tell than its values say. */
+static bool has_layers(const struct kiln_compare_frame *frame)
+{
+    return frame->layer_count > 1 || (frame->layer_count == 1 && layer_at(frame, 0)->data);
+}
+
+/* Prints the values that are beyond their limits, or how near the worst one is to its limit:
+ * "flip.p99 0.47 of 0.1". */
+static void print_values(const struct kiln_compare_result *result,
+                         const struct kiln_compare_layer *layer)
+{
+    char text[32];
+    const char *comma = "";
+    for (size_t i = 0; i < result->column_count; i++) {
+        if (!layer->beyond[i])
+            continue;
+        printf("%s%s %s of %g", comma, result->columns[i].name, value_text(text, layer->values[i]),
+               result->columns[i].limit);
+        comma = ", ";
+    }
+    if (!*comma)
+        printf("at %.0f %% of the limits", 100 * layer->score);
+}
+
+/* Prints what was found of a layer: "12 numbers differ, by up to 0.5 at 3,4". */
+static void print_finding(const struct kiln_compare_result *result,
+                          const struct kiln_compare_layer *layer)
+{
+    char text[32];
+    if (layer->measured && layer->equal)
+        printf("not one value differs");
+    else if (layer->measured)
+        print_values(result, layer);
+    else if (*layer->message)
+        printf("%s", layer->message);
+    else if (layer->equal)
+        printf("not one number differs");
+    else
+        printf("%llu number%s differ%s, by up to %s at %u,%u", (unsigned long long)layer->differing,
+               layer->differing == 1 ? "" : "s", layer->differing == 1 ? "s" : "",
+               value_text(text, layer->difference), layer->worst_x, layer->worst_y);
+    printf("\n");
+}
+
+static void print_layers(const struct kiln_compare_result *result,
+                         const struct kiln_compare_frame *frame)
+{
+    printf("  %-24s %s\n", "layer", "verdict");
+    for (size_t i = 0; i < frame->layer_count; i++) {
+        const struct kiln_compare_layer *layer = layer_at(frame, i);
+        char name[256];
+        kiln_shown(name, sizeof name, layer->name);
+        printf("  %-24s %-11s ", name, kiln_compare_verdict_name(layer->verdict));
+        print_finding(result, layer);
+    }
+}
+
+/* Prints the layers of a frame of a sequence that differ. */
+static void print_differing_layers(const struct kiln_compare_result *result,
+                                   const struct kiln_compare_frame *frame)
+{
+    for (size_t i = 0; i < frame->layer_count; i++) {
+        const struct kiln_compare_layer *layer = layer_at(frame, i);
+        char name[256];
+        kiln_shown(name, sizeof name, layer->name);
+        if (layer->verdict == KILN_COMPARE_SAME)
+            continue;
+        printf("    layer %s: ", name);
+        print_finding(result, layer);
+    }
+}
+
 /* Prints the line of a frame of a sequence, and before the first frame the column headings. */
 static void print_frame_line(const struct kiln_compare_result *result,
                              const struct kiln_compare_frame *frame)
@@ -44,6 +121,8 @@ static void print_frame_line(const struct kiln_compare_result *result,
         printf(" %16s %7.0f %%\n", value_text(text, frame->values[column]), 100 * frame->score);
     else
         printf(" %s\n", frame->message);
+    if (has_layers(frame))
+        print_differing_layers(result, frame);
 }
 
 /* Prints the limit of a value, and whether the value is beyond it. */
@@ -75,11 +154,12 @@ static void print_metrics(const struct kiln_compare_result *result)
     }
 }
 
-static void print_places(const struct kiln_compare_frame *frame)
+static void print_places(const struct compare_report *report)
 {
+    const struct kiln_compare_frame *frame = &report->only;
     if (frame->equal)
         printf("  not one value differs\n");
-    else
+    else if (!report->colors_equal)
         printf("  largest difference at %u,%u; densest window of %ux%u at %u,%u: %u pixels\n",
                frame->worst_x, frame->worst_y, frame->window_width, frame->window_height,
                frame->window_x, frame->window_y, frame->window_differing);
@@ -118,8 +198,8 @@ static void print_result_text(const struct compare_report *report,
     if (result->measured)
         print_metrics(result);
     if (!result->sequence && report->only.measured)
-        print_places(&report->only);
-    if (!result->sequence && *report->note)
+        print_places(report);
+    if (!result->sequence && *report->note && !report->has_layers)
         printf("  %s\n", report->note);
     if (report->stats)
         printf("  FLIP in %.3f s\n  all in %.3f s\n", result->flip_s, result->total_s);
@@ -159,6 +239,31 @@ static void add_measured(struct kiln_json *json, const struct kiln_compare_resul
     kiln_json_end(json);
 }
 
+static void add_layer(struct kiln_json *json, const struct kiln_compare_result *result,
+                      const struct kiln_compare_layer *layer)
+{
+    kiln_json_begin_object(json, NULL);
+    kiln_json_string(json, "name", layer->name);
+    kiln_json_string(json, "kind", layer->data ? "data" : "color");
+    kiln_json_string(json, "verdict", kiln_compare_verdict_name(layer->verdict));
+    if (*layer->message)
+        kiln_json_string(json, "message", layer->message);
+    kiln_json_bool(json, "equal", layer->equal);
+    add_number(json, "score", layer->score);
+    if (layer->data) {
+        add_number(json, "difference", layer->difference);
+        kiln_json_uint(json, "differing", layer->differing);
+    }
+    kiln_json_pair(json, "worst_pixel", layer->worst_x, layer->worst_y);
+    if (layer->measured) {
+        kiln_json_begin_object(json, "metrics");
+        for (size_t i = 0; i < result->column_count; i++)
+            add_number(json, result->columns[i].name, layer->values[i]);
+        kiln_json_end(json);
+    }
+    kiln_json_end(json);
+}
+
 static void print_frame_json(const struct kiln_compare_result *result,
                              const struct kiln_compare_frame *frame)
 {
@@ -169,6 +274,12 @@ static void print_frame_json(const struct kiln_compare_result *result,
         add_measured(&json, result, frame);
     else
         kiln_json_string(&json, "message", frame->message);
+    if (has_layers(frame)) {
+        kiln_json_begin_array(&json, "layers");
+        for (size_t i = 0; i < frame->layer_count; i++)
+            add_layer(&json, result, layer_at(frame, i));
+        kiln_json_end(&json);
+    }
     event_end(&json);
 }
 
@@ -219,6 +330,13 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
 {
     report->only = *frame;
     report->only.name = report->only.message = ""; /* they may be freed after this call */
+    report->only.layers = NULL;
+    report->has_layers = has_layers(frame);
+    report->colors_equal = true;
+    for (size_t i = 0; i < frame->layer_count; i++) {
+        const struct kiln_compare_layer *layer = layer_at(frame, i);
+        report->colors_equal = report->colors_equal && (layer->equal || !layer->measured);
+    }
     snprintf(report->note, sizeof report->note, "%s", frame->measured ? frame->message : "");
     if (report->json)
         print_frame_json(result, frame);
@@ -226,6 +344,8 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
         return;
     if (result->sequence)
         print_frame_line(result, frame);
+    else if (report->has_layers)
+        print_layers(result, frame);
     else if (!frame->measured && frame->verdict != KILN_COMPARE_UNREADABLE)
         /* The error that compare.c reports says why a frame is unreadable. */
         printf("%s\n", frame->message);

@@ -11,7 +11,9 @@ struct compare_report {
     bool quiet;
     bool stats;                     /* print times, too */
     struct kiln_compare_frame only; /* the last frame; printed for a pair of single pictures */
-    char note[160];                 /* its message, if it was measured */
+    char note[256];                 /* its message, if it was measured */
+    bool colors_equal;              /* of that frame: no number of a layer of colours differs */
+    bool has_layers;                /* of that frame: print_layers printed its layers */
 };
 
 /* Prints the result of a frame; called after each compared frame. */

@@ -32,6 +32,7 @@ struct decode_picture {
     uint64_t most_pixels;
     bool sky;               /* the picture shows all directions, by longitude and latitude */
     bool raw;               /* the numbers are data: they are neither turned nor converted */
+    bool layers;            /* of an EXR: layers are wanted as they are compared */
     uint32_t width, height; /* set when the size is known */
     /* set: only a process of kind KILN_DECODE_PROFILE can show it; of an EXR, one of kind
      * KILN_DECODE_OPENEXR */
@@ -95,6 +96,14 @@ struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
 struct kiln_asset_image *decode_gif(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
+
+/* Takes a layer, whose image it owns from then on. data: the layer holds no light. */
+typedef void decode_take_layer(void *user, const char *name, bool data,
+                               struct kiln_asset_image *image);
+
+/* Decodes all layers of an EXR or, if picture->layer is not empty, that one, in the order of
+ * kiln_order_layers. */
+bool decode_exr_layers(struct decode_picture *picture, decode_take_layer *take, void *user);
 
 /* Takes an image, which it owns from then on. Returns false if no more are wanted. */
 typedef bool decode_take(void *user, struct kiln_asset_image *image);

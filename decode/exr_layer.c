@@ -1,41 +1,22 @@
 /* This file finds the channels of a layer in an OpenEXR file. A channel's name is "LAYER.R", in the
  * beauty and in parts that are named like the layer "R" alone. */
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/error.h"
 #include "exr.h"
 
-/* Meanings of the last word of a channel's name. */
-enum word {
-    WORD_R,
-    WORD_G,
-    WORD_B,
-    WORD_A,
-    WORD_Y,
-    WORD_RY,
-    WORD_BY,
-    WORD_X,
-    WORD_Z,
-    WORD_U,
-    WORD_V,
-    WORD_W,
-    WORD_COUNT,
-};
-
-struct words {
-    const char *channels[WORD_COUNT]; /* names of the channels that end in each word, or NULL */
-};
-
 static int find_word(const char *text)
 {
     static const struct {
         const char *text;
-        enum word word;
-    } words[] = {{"R", WORD_R},   {"G", WORD_G},     {"B", WORD_B},    {"A", WORD_A},
-                 {"Y", WORD_Y},   {"RY", WORD_RY},   {"BY", WORD_BY},  {"X", WORD_X},
-                 {"Z", WORD_Z},   {"U", WORD_U},     {"V", WORD_V},    {"W", WORD_W},
-                 {"red", WORD_R}, {"green", WORD_G}, {"blue", WORD_B}, {"alpha", WORD_A}};
+        enum exr_word word;
+    } words[] = {
+        {"R", EXR_WORD_R},   {"G", EXR_WORD_G},     {"B", EXR_WORD_B},    {"A", EXR_WORD_A},
+        {"Y", EXR_WORD_Y},   {"RY", EXR_WORD_RY},   {"BY", EXR_WORD_BY},  {"X", EXR_WORD_X},
+        {"Z", EXR_WORD_Z},   {"U", EXR_WORD_U},     {"V", EXR_WORD_V},    {"W", EXR_WORD_W},
+        {"red", EXR_WORD_R}, {"green", EXR_WORD_G}, {"blue", EXR_WORD_B}, {"alpha", EXR_WORD_A}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (strcasecmp(text, words[i].text) == 0)
             return (int)words[i].word;
@@ -52,9 +33,9 @@ static const char *after(const char *name, const char *prefix)
     return strncmp(name, prefix, length) == 0 && name[length] == '.' ? name + length + 1 : NULL;
 }
 
-static struct words find_words(const exr_attr_chlist_t *list, const char *prefix)
+struct exr_words decode_exr_words(const exr_attr_chlist_t *list, const char *prefix)
 {
-    struct words words = {{NULL}};
+    struct exr_words words = {{NULL}};
     for (int i = 0; i < list->num_channels; i++) {
         const char *name = list->entries[i].name.str;
         const char *last = after(name, prefix);
@@ -80,50 +61,51 @@ static bool is_data(const char *layer)
     return found;
 }
 
-static void take(struct exr_layer *layer, const struct words *words, enum word first,
-                 enum word second, enum word third)
+static void take(struct exr_layer *layer, const struct exr_words *words, enum exr_word first,
+                 enum exr_word second, enum exr_word third)
 {
     layer->names[EXR_RED] = words->channels[first];
     layer->names[EXR_GREEN] = words->channels[second];
     layer->names[EXR_BLUE] = words->channels[third];
 }
 
-/* Chooses the channels of a layer from those with one prefix. A vector is X, Y and Z, or U, V and
- * W, of which the last may be missing. vectors: the layer may hold other things than light. */
-static bool choose(const struct words *words, bool vectors, struct exr_layer *layer)
+bool decode_exr_choose(const struct exr_words *words, bool vectors, struct exr_layer *layer)
 {
     const char *const *has = words->channels;
-    const bool chroma = has[WORD_RY] || has[WORD_BY];
+    const bool chroma = has[EXR_WORD_RY] || has[EXR_WORD_BY];
     *layer = (struct exr_layer){.sampling = 1};
-    if (has[WORD_G] || has[WORD_B]) {
-        take(layer, words, WORD_R, WORD_G, WORD_B);
+    if (has[EXR_WORD_G] || has[EXR_WORD_B]) {
+        take(layer, words, EXR_WORD_R, EXR_WORD_G, EXR_WORD_B);
         layer->is_color = true;
-    } else if (has[WORD_R]) {
-        layer->names[EXR_RED] = has[WORD_R];
-    } else if (has[WORD_Y] && has[WORD_RY] && has[WORD_BY]) {
-        layer->names[EXR_RED] = has[WORD_Y];
-        layer->names[EXR_RY] = has[WORD_RY];
-        layer->names[EXR_BY] = has[WORD_BY];
+    } else if (has[EXR_WORD_R]) {
+        layer->names[EXR_RED] = has[EXR_WORD_R];
+    } else if (has[EXR_WORD_Y] && has[EXR_WORD_RY] && has[EXR_WORD_BY]) {
+        layer->names[EXR_RED] = has[EXR_WORD_Y];
+        layer->names[EXR_RY] = has[EXR_WORD_RY];
+        layer->names[EXR_BY] = has[EXR_WORD_BY];
         layer->is_color = true;
-    } else if (vectors && has[WORD_X] && has[WORD_Y]) {
-        take(layer, words, WORD_X, WORD_Y, WORD_Z);
-    } else if (vectors && has[WORD_U] && has[WORD_V]) {
-        take(layer, words, WORD_U, WORD_V, WORD_W);
-    } else if (has[WORD_Y] && !chroma) {
-        layer->names[EXR_RED] = has[WORD_Y];
-    } else if (vectors && has[WORD_Z]) {
-        layer->names[EXR_RED] = has[WORD_Z];
+    } else if (vectors && has[EXR_WORD_X] && has[EXR_WORD_Y]) {
+        take(layer, words, EXR_WORD_X, EXR_WORD_Y, EXR_WORD_Z);
+        layer->is_data = true;
+    } else if (vectors && has[EXR_WORD_U] && has[EXR_WORD_V]) {
+        take(layer, words, EXR_WORD_U, EXR_WORD_V, EXR_WORD_W);
+        layer->is_data = true;
+    } else if (has[EXR_WORD_Y] && !has[EXR_WORD_X] && !chroma) {
+        layer->names[EXR_RED] = has[EXR_WORD_Y];
+    } else if (vectors && has[EXR_WORD_Z]) {
+        layer->names[EXR_RED] = has[EXR_WORD_Z];
+        layer->is_data = true;
     } else {
         return false;
     }
-    layer->names[EXR_ALPHA] = has[WORD_A];
+    layer->names[EXR_ALPHA] = has[EXR_WORD_A];
     layer->grey = !layer->names[EXR_GREEN] && !layer->names[EXR_BLUE] && !layer->names[EXR_RY];
     return true;
 }
 
-static bool choose_one(const char *channel, struct exr_layer *layer)
+bool decode_exr_choose_one(const char *channel, struct exr_layer *layer)
 {
-    *layer = (struct exr_layer){.names = {channel}, .sampling = 1, .grey = true};
+    *layer = (struct exr_layer){.names = {channel}, .sampling = 1, .grey = true, .is_data = true};
     return channel != NULL;
 }
 
@@ -142,21 +124,24 @@ static bool find_channels(struct exr_layer *layer, const exr_attr_chlist_t *list
                           const char *wanted)
 {
     const bool beauty = strcmp(wanted, "beauty") == 0;
-    struct words words = find_words(list, beauty ? "" : wanted);
-    if (choose(&words, !beauty, layer) && *wanted)
+    struct exr_words words = decode_exr_words(list, beauty ? "" : wanted);
+    if (decode_exr_choose(&words, !beauty, layer) && *wanted)
         return true;
-    words = find_words(list, "");
-    const char *depth = words.channels[WORD_X] ? NULL : words.channels[WORD_Z];
-    if (strcmp(wanted, "depth") == 0 && choose_one(depth, layer))
+    words = decode_exr_words(list, "");
+    const char *depth = words.channels[EXR_WORD_X] ? NULL : words.channels[EXR_WORD_Z];
+    if (strcmp(wanted, "depth") == 0 && decode_exr_choose_one(depth, layer))
         return true;
-    if (*part && strcmp(part, wanted) == 0 && choose(&words, !beauty, layer))
+    if (*part && strcmp(part, wanted) == 0 && decode_exr_choose(&words, !beauty, layer))
         return true;
     const char *rest = *part ? after(wanted, part) : NULL;
-    words = find_words(list, rest ? rest : "");
-    if (rest && *rest && choose(&words, true, layer))
+    words = decode_exr_words(list, rest ? rest : "");
+    if (rest && *rest && decode_exr_choose(&words, true, layer))
         return true;
-    return choose_one(find_channel(list, wanted), layer) ||
-           choose_one(find_channel(list, rest), layer);
+    words = decode_exr_words(list, wanted);
+    if (beauty && decode_exr_choose(&words, true, layer))
+        return true;
+    return decode_exr_choose_one(find_channel(list, wanted), layer) ||
+           decode_exr_choose_one(find_channel(list, rest), layer);
 }
 
 static const exr_attr_chlist_entry_t *entry_of(const exr_attr_chlist_t *list, const char *name)
@@ -187,6 +172,27 @@ static bool check_sampling(struct exr_reading *reading, const exr_attr_chlist_t 
                                   layer->names[role], entry->x_sampling, entry->y_sampling);
     }
     return true;
+}
+
+/* Returns whether all channels of a layer are whole numbers. */
+static bool is_whole(const struct exr_layer *layer, const exr_attr_chlist_t *list)
+{
+    bool whole = true;
+    for (int role = 0; role < EXR_ROLES; role++) {
+        const exr_attr_chlist_entry_t *entry = entry_of(list, layer->names[role]);
+        whole = whole && (!entry || entry->pixel_type == EXR_PIXEL_UINT);
+    }
+    return whole;
+}
+
+bool decode_exr_describe(struct exr_reading *reading, const exr_attr_chlist_t *list)
+{
+    struct exr_layer *layer = &reading->layer;
+    const bool whole = is_whole(layer, list);
+    layer->is_data = layer->is_data || whole || is_data(reading->name);
+    layer->is_color = layer->is_color && !is_data(reading->name);
+    layer->is_whole = whole && reading->picture->layers;
+    return check_sampling(reading, list);
 }
 
 /* Lists the channels of the file for an error: "R, G, B, fire.R, ..." */
@@ -224,8 +230,8 @@ bool decode_exr_find_layer(struct exr_reading *reading)
             name = "";
         reading->part = part;
         if (find_channels(&reading->layer, list, name, wanted)) {
-            reading->layer.is_color = reading->layer.is_color && !is_data(wanted);
-            return check_sampling(reading, list);
+            snprintf(reading->name, sizeof reading->name, "%s", wanted);
+            return decode_exr_describe(reading, list);
         }
     }
     if (code != EXR_ERR_SUCCESS)

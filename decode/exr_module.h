@@ -10,15 +10,21 @@
 extern "C" {
 #endif
 
-enum { KILN_OPENEXR_CHANNELS = 6 };
-
-/* The struct says where the module writes the samples of one channel, as floats. */
+/* The struct says where the module writes the samples of one channel. */
 struct kiln_openexr_channel {
-    const char *name; /* in the part; NULL: none */
-    float *first;     /* for the first sample of the data window */
-    size_t step;      /* floats to the next sample to the right */
-    size_t stride;    /* floats to the next sample below */
+    const char *name; /* in the part */
+    void *first;      /* for the first sample of the data window */
+    size_t step;      /* samples to the next one to the right */
+    size_t stride;    /* samples to the next one below */
     int sampling;     /* pixels a sample and axis */
+    int whole;        /* as uint32_t; else as float */
+};
+
+/* What becomes of the samples of a pixel of a deep part. */
+enum kiln_openexr_deep {
+    KILN_OPENEXR_NOT_DEEP,
+    KILN_OPENEXR_FLATTEN, /* they cover each other, from front to back */
+    KILN_OPENEXR_NEAREST, /* the one with the least Z counts; a pixel without samples is 0 */
 };
 
 struct kiln_openexr_request {
@@ -26,8 +32,9 @@ struct kiln_openexr_request {
     size_t size;
     int part;
     int32_t data_window[4]; /* left, top, right, bottom: both edges are inside */
-    int deep;               /* flatten the samples of a deep part, from front to back */
-    struct kiln_openexr_channel channels[KILN_OPENEXR_CHANNELS];
+    enum kiln_openexr_deep deep;
+    const struct kiln_openexr_channel *channels;
+    size_t channel_count;
 };
 
 enum kiln_openexr_result { KILN_OPENEXR_DONE, KILN_OPENEXR_BROKEN, KILN_OPENEXR_NO_MEMORY };

@@ -1,7 +1,8 @@
-/* This file decodes the channels of one layer of an OpenEXR file by OpenEXR's C++ library, which
+/* This file decodes the channels of layers of an OpenEXR file by OpenEXR's C++ library, which
  * lies in the module kiln-openexr.so beside kiln-decode. A file comes here if OpenEXR's C core
  * cannot decode it. DWAA and DWAB are decoded by floats and the processor's vectors, so their
  * pixels may differ a little from machine to machine. */
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -49,27 +50,48 @@ bool decode_exr_more_is_ready(void)
     return module.kiln_openexr_read != NULL;
 }
 
-bool decode_exr_more(struct exr_reading *reading, bool deep)
+/* Lists where the samples of the layers' channels go. Returns how many channels there are. */
+static size_t list_channels(const struct exr_reading *readings, size_t count,
+                            struct kiln_openexr_channel *channels)
 {
-    const struct exr_box *data = &reading->data;
-    struct kiln_error *error = reading->picture->error;
+    size_t used = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct exr_layer *layer = &readings[i].layer;
+        for (int role = 0; role < EXR_ROLES; role++) {
+            struct kiln_openexr_channel channel = {.name = layer->names[role],
+                                                   .sampling = role < EXR_RY ? 1 : layer->sampling,
+                                                   .whole = layer->is_whole};
+            channel.first = decode_exr_target(&readings[i], (enum exr_role)role, &channel.step,
+                                              &channel.stride);
+            if (channel.first)
+                channels[used++] = channel;
+        }
+    }
+    return used;
+}
+
+bool decode_exr_more(struct exr_reading *readings, size_t count)
+{
+    const struct exr_box *data = &readings->data;
+    struct kiln_error *error = readings->picture->error;
     char message[256] = "";
-    struct kiln_openexr_request request = {
-        .bytes = reading->picture->bytes,
-        .size = reading->picture->size,
-        .part = reading->part,
+    struct kiln_openexr_channel *channels = calloc(count * EXR_ROLES, sizeof *channels);
+    if (!channels)
+        return decode_out_of_memory(error);
+    const struct kiln_openexr_request request = {
+        .bytes = readings->picture->bytes,
+        .size = readings->picture->size,
+        .part = readings->part,
         .data_window = {data->left, data->top, (int32_t)(data->left + (int64_t)data->width - 1),
                         (int32_t)(data->top + (int64_t)data->height - 1)},
-        .deep = deep,
+        .deep = readings->deep,
+        .channels = channels,
+        .channel_count = list_channels(readings, count, channels),
     };
-    for (int role = 0; role < EXR_ROLES; role++) {
-        struct kiln_openexr_channel *channel = &request.channels[role];
-        channel->name = reading->layer.names[role];
-        channel->sampling = role < EXR_RY ? 1 : reading->layer.sampling;
-        channel->first =
-            decode_exr_target(reading, (enum exr_role)role, &channel->step, &channel->stride);
-    }
-    switch (module.kiln_openexr_read(&request, message, sizeof message)) {
+    const enum kiln_openexr_result result =
+        module.kiln_openexr_read(&request, message, sizeof message);
+    free(channels);
+    switch (result) {
     case KILN_OPENEXR_DONE:
         return true;
     case KILN_OPENEXR_NO_MEMORY:

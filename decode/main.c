@@ -133,18 +133,40 @@ static unsigned char *read_file(int file, uint64_t most, size_t *size, struct ki
     return bytes;
 }
 
+/* Sends an image. answer: what is said of it besides. */
+static void send_pixels(struct kiln_decode_answer *answer, const struct kiln_asset_image *image)
+{
+    answer->what = KILN_DECODE_PIXELS;
+    answer->width = image->width;
+    answer->height = image->height;
+    answer->channels = image->channels;
+    answer->type = image->type;
+    answer->srgb = image->srgb;
+    answer->premultiplied = image->premultiplied;
+    send_answer(answer);
+    send_bytes(image->pixels, kiln_asset_image_bytes(image));
+}
+
 static void send_image(const struct kiln_asset_image *image, uint32_t pages)
 {
-    const struct kiln_decode_answer answer = {.what = KILN_DECODE_PIXELS,
-                                              .width = image->width,
-                                              .height = image->height,
-                                              .channels = image->channels,
-                                              .type = image->type,
-                                              .srgb = image->srgb,
-                                              .premultiplied = image->premultiplied,
-                                              .pages = pages};
-    send_answer(&answer);
-    send_bytes(image->pixels, kiln_asset_image_bytes(image));
+    send_pixels(&(struct kiln_decode_answer){.pages = pages}, image);
+}
+
+static void send_layer(void *user, const char *name, bool data, struct kiln_asset_image *image)
+{
+    (void)user;
+    struct kiln_decode_answer answer = {.pages = 1, .data = data};
+    snprintf(answer.text, sizeof answer.text, "%s", name);
+    send_pixels(&answer, image);
+    kiln_asset_image_destroy(&image);
+}
+
+static void send_picture_failure(const struct decode_picture *picture)
+{
+    if (picture->needs_profile)
+        send_text(KILN_DECODE_NEEDS_PROFILE, "");
+    else
+        send_failure(picture->error, picture);
 }
 
 static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
@@ -189,6 +211,25 @@ static void serve_frames(struct decode_picture *picture)
         send_failure(picture->error, picture);
 }
 
+/* Sends the layers of a picture; KILN_DECODE_END follows. */
+static void serve_layers(struct decode_picture *picture)
+{
+    if (decode_exr_layers(picture, send_layer, NULL))
+        send_text(KILN_DECODE_END, "");
+    else
+        send_picture_failure(picture);
+}
+
+static void serve_one(enum kiln_decode_kind kind, struct decode_picture *picture)
+{
+    struct kiln_asset_image *image = decode_file(kind, picture);
+    if (image)
+        send_image(image, picture->pages);
+    else
+        send_picture_failure(picture);
+    kiln_asset_image_destroy(&image);
+}
+
 static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,
                           int file)
 {
@@ -198,28 +239,23 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
                                      .most_pixels = request->most_pixels,
                                      .sky = request->sky,
                                      .raw = request->raw,
+                                     .layers = request->layers,
                                      .page = request->page,
                                      .pages = 1,
                                      .error = &error};
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
-    struct kiln_asset_image *image = NULL;
-    picture.bytes = bytes;
     const bool has_frames = kind == KILN_DECODE_WEBP || kind == KILN_DECODE_PICTURE;
-    if (bytes && request->frames && has_frames) {
-        serve_frames(&picture);
-        free(bytes);
-        return;
-    }
-    if (bytes)
-        image = decode_file(kind, &picture);
-    free(bytes);
-    if (image)
-        send_image(image, picture.pages);
-    else if (picture.needs_profile)
-        send_text(KILN_DECODE_NEEDS_PROFILE, "");
-    else
+    const bool has_layers = kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR;
+    picture.bytes = bytes;
+    if (!bytes)
         send_failure(&error, &picture);
-    kiln_asset_image_destroy(&image);
+    else if (request->frames && has_frames)
+        serve_frames(&picture);
+    else if (request->layers && has_layers)
+        serve_layers(&picture);
+    else
+        serve_one(kind, &picture);
+    free(bytes);
 }
 
 static void serve_video(int file)

@@ -9,8 +9,7 @@ extern "C" {
 #endif
 
 /* How FLIP judges light: LDR clamps it to white, HDR looks at several exposures. AUTO takes HDR
- * when both pictures have floats (EXR) and LDR when neither has; for a mixed pair it is an error.
- */
+ * when one of the pictures has floats (EXR), and else LDR. */
 enum kiln_compare_mode { KILN_COMPARE_AUTO, KILN_COMPARE_LDR, KILN_COMPARE_HDR };
 
 enum { KILN_MAX_COLUMNS = 32, KILN_METRIC_NAME_SIZE = 24 };
@@ -37,9 +36,31 @@ enum { KILN_MAX_VERDICTS = 8 }; /* the most verdicts of any later version */
 
 KILN_API const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict);
 
-/* One frame of a comparison. A frame that is missing, extra or unreadable, or whose sizes or
- * channels differ, is not measured and has no values. Texts are valid until the callback that gets
- * the frame returns. */
+/* One layer of a frame. Colours are measured and judged by the limits. Data, which hold no light,
+ * are compared by their numbers. Texts are valid until the callback that gets the frame returns. */
+struct kiln_compare_layer {
+    size_t size;
+    const char *name; /* "beauty" is the picture */
+    bool data;
+    /* KILN_COMPARE_MISSING: it is in the reference only, KILN_COMPARE_EXTRA: in the test only */
+    enum kiln_compare_verdict verdict;
+    const char *message; /* why it was not measured, or how the kinds of files differ; or "" */
+    bool measured;       /* values, beyond and the places hold: it is of colours */
+    bool equal;          /* no number differs */
+    double values[KILN_MAX_COLUMNS];
+    bool beyond[KILN_MAX_COLUMNS];
+    double score; /* the largest share of a limit that a value takes up */
+    uint32_t worst_x, worst_y;
+    uint32_t window_x, window_y, window_width, window_height, window_differing;
+    /* of data: the largest difference of two numbers, which is infinite where only one of them is
+     * finite, and how many numbers differ */
+    double difference;
+    uint64_t differing;
+};
+
+/* One frame of a comparison. A frame that is missing, extra or unreadable, or whose sizes differ,
+ * is not measured and has no values. The values of a frame with several layers are those of its
+ * worst layers. Texts are valid until the callback that gets the frame returns. */
 struct kiln_compare_frame {
     size_t size;
     const char *name; /* of the file, or the frame's number */
@@ -59,6 +80,10 @@ struct kiln_compare_frame {
     /* the size of that window, and the number of differing pixels in it */
     uint32_t window_width, window_height, window_differing;
     double flip_s; /* time of FLIP */
+    /* Its layers, as long as the texts: one, "beauty", for all formats but EXR. There are none if
+     * the frame is missing, extra or unreadable. */
+    const struct kiln_compare_layer *layers;
+    size_t layer_stride, layer_count; /* bytes from one layer to the next; number of layers */
 };
 
 /* The result of a comparison; during it, the result so far. */
@@ -98,14 +123,15 @@ struct kiln_compare_params {
     const char *reference, *test;
     const char *const *limits; /* "metric=value", or several with commas between them */
     size_t limit_count;        /* 0 takes KILN_COMPARE_DEFAULT_LIMITS */
-    const char *layer;         /* name of the layer of EXR files to compare, such as "beauty" */
+    const char *layer; /* name of the layer to compare, such as "beauty"; NULL: all layers */
     enum kiln_compare_mode mode;
     double pixels_per_degree; /* of the viewer's eye, 4 to 400 */
     double threshold;         /* pixels that differ by more levels (0 to 255) count as differing */
     uint32_t window;          /* edge in pixels of the window that is searched for the place with
                                  the most differing pixels */
     uint32_t threads;         /* 0 takes one a core */
-    /* Path of a PNG of reference, test and error map side by side for each measured frame, or NULL.
+    /* Path of a PNG of reference, test and error map side by side for each frame that was compared,
+     * or NULL. Of several layers, the one with the highest score is drawn.
      * For sequences it is a pattern, or a folder (which exists, or has a slash at its end). */
     const char *diff;
     const char *error_map; /* path, as `diff`, of a PNG of the error map alone; or NULL */
@@ -119,6 +145,7 @@ struct kiln_compare_params {
     bool (*stop)(void *user); /* called between frames; true ends with KILN_INTERRUPTED */
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
+    double data_limit; /* the largest difference of numbers of data that passes: 0 or more */
 };
 #define KILN_COMPARE_DEFAULT_LIMITS "flip.mean=0.01,flip.p99=0.1,window.share=0.1"
 
@@ -127,7 +154,6 @@ static inline struct kiln_compare_params kiln_compare_defaults(void)
     struct kiln_compare_params params;
     memset(&params, 0, sizeof params);
     params.size = sizeof params;
-    params.layer = "beauty";
     params.pixels_per_degree = 67.0206;
     params.threshold = 2;
     params.window = 32;

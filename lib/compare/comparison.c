@@ -1,5 +1,5 @@
-/* Compares pictures, folders, numbered pictures and videos. Frames of both sides are paired,
- * decoded, measured and judged one after the other, so that memory holds one pair at a time. */
+/* Compares pictures, folders, numbered pictures and videos. Frames of both sides are paired, and
+ * compared one after the other (frame.c). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,21 +9,14 @@
 #include "base/order.h"
 #include "base/shown.h"
 #include "base/sized.h"
-#include "compare/difference.h"
-#include "compare/footage.h"
-#include "compare/mask.h"
-#include "compare/metric.h"
+#include "compare/frame.h"
 #include "kiln_program.h"
 
 struct comparison {
     const struct kiln_compare_params *params;
     const char *output_file, *output_option; /* a file that the caller writes; or NULL */
-    struct kiln_footage *footage[2];         /* reference, test */
-    struct kiln_metric_set set;
-    struct kiln_difference_plan diff, error_map;
+    struct kiln_frame_comparer frames;
     struct kiln_claims *claims; /* of all files that are read and written */
-    struct kiln_mask mask;      /* made for the previous frame's size */
-    struct kiln_threads *threads;
     struct kiln_compare_result result;
     double sums[KILN_MAX_COLUMNS];
     double worst_score;        /* of result.worst_frame; below 0: there is none */
@@ -43,161 +36,6 @@ const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict)
     return (unsigned)verdict < KILN_COMPARE_VERDICT_COUNT ? names[verdict] : "";
 }
 
-/* ---- One frame ---------------------------------------------------------------------------- */
-
-static bool choose_mode(struct comparison *comparison,
-                        const struct kiln_compare_picture *const pictures[2], bool *hdr,
-                        struct kiln_error *error)
-{
-    enum kiln_compare_mode mode = comparison->params->mode;
-    if (mode == KILN_COMPARE_AUTO && pictures[0]->hdr != pictures[1]->hdr)
-        return kiln_error_set(
-            error, KILN_USAGE,
-            "%s is %s and %s is not: choose the range of light by --range ldr or hdr",
-            kiln_footage_path(comparison->footage[0]),
-            pictures[0]->hdr ? "of floats" : "of integers",
-            kiln_footage_path(comparison->footage[1]));
-    *hdr = mode == KILN_COMPARE_AUTO ? pictures[0]->hdr : mode == KILN_COMPARE_HDR;
-    comparison->result.hdr = *hdr;
-    return true;
-}
-
-static void note_places(const struct kiln_measurement *measurement,
-                        struct kiln_compare_frame *frame)
-{
-    const struct kiln_level_difference *d = &measurement->levels;
-    frame->equal = d->maximum == 0.0;
-    frame->worst_x = d->x;
-    frame->worst_y = d->y;
-    frame->window_x = d->window_x;
-    frame->window_y = d->window_y;
-    frame->window_width = d->window_width;
-    frame->window_height = d->window_height;
-    frame->window_differing = (uint32_t)d->window_differing;
-    frame->flip_s = measurement->flip_s;
-}
-
-/* Measures and judges a pair of pictures, and draws the difference. Pictures whose sizes or
- * channels do not match get a verdict and are no error. */
-static bool compare_pictures(struct comparison *comparison,
-                             const struct kiln_compare_picture *const pictures[2],
-                             struct kiln_compare_frame *frame, uint32_t number,
-                             struct kiln_error *error)
-{
-    const struct kiln_compare_params *params = comparison->params;
-    struct kiln_measurement measurement = {0};
-    struct kiln_measure_params measure = {.pixels_per_degree = params->pixels_per_degree,
-                                          .threshold = params->threshold,
-                                          .window = params->window};
-    frame->width = pictures[0]->width;
-    frame->height = pictures[0]->height;
-    if (!choose_mode(comparison, pictures, &measure.hdr, error))
-        return false;
-    bool ok = kiln_measurement_take(&measurement, pictures[0], pictures[1], &measure,
-                                    comparison->threads, error) &&
-              kiln_metric_set_judge(&comparison->set, &measurement, frame, error);
-    if (ok) {
-        frame->measured = true;
-        frame->message = kiln_compare_alpha_note(pictures[0], pictures[1]);
-        note_places(&measurement, frame);
-    } else if (error->code == KILN_FRAME_FAILED) {
-        frame->verdict = KILN_COMPARE_DIFFERENT;
-        frame->message = error->message;
-    }
-    const struct kiln_difference_plan *plans[] = {
-        params->diff ? &comparison->diff : NULL, params->error_map ? &comparison->error_map : NULL};
-    for (size_t i = 0; i < 2; i++)
-        ok = ok && (!plans[i] || kiln_difference_write(plans[i], frame->name, number, pictures[0],
-                                                       pictures[1], measurement.errors, error));
-    kiln_measurement_finish(&measurement);
-    return ok || error->code == KILN_FRAME_FAILED;
-}
-
-/* Decodes both sides even if the first fails, so that they stay in step. */
-static bool load_images(struct comparison *comparison, struct kiln_asset_image *images[2],
-                        struct kiln_error *error)
-{
-    struct kiln_error errors[2] = {0};
-    for (int i = 0; i < 2; i++) {
-        images[i] = kiln_footage_take(comparison->footage[i], &errors[i]);
-        if (!images[i] && kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_VIDEO)
-            comparison->ended = true;
-    }
-    *error = images[0] ? errors[1] : errors[0];
-    return images[0] && images[1];
-}
-
-/* Makes the mask for a pair of pictures. *mask is NULL without masks, and for pictures of two
- * sizes, which differ anyway. */
-static bool make_mask(struct comparison *comparison, struct kiln_asset_image *const images[2],
-                      const struct kiln_mask **mask, struct kiln_error *error)
-{
-    const struct kiln_compare_params *params = comparison->params;
-    uint32_t width = images[0]->width, height = images[0]->height;
-    *mask = NULL;
-    if (params->mask_count == 0 || width != images[1]->width || height != images[1]->height)
-        return true;
-    *mask = &comparison->mask;
-    return (comparison->mask.width == width && comparison->mask.height == height) ||
-           kiln_mask_make(&comparison->mask, params->masks, params->mask_count, width, height,
-                          error);
-}
-
-static bool make_pictures(struct comparison *comparison, const char *frame,
-                          struct kiln_asset_image *const images[2],
-                          struct kiln_compare_picture *pictures[2], struct kiln_error *error)
-{
-    const struct kiln_mask *mask;
-    if (!make_mask(comparison, images, &mask, error))
-        return false;
-    for (int i = 0; i < 2; i++) {
-        char name[KILN_PATH_SIZE]; /* for messages */
-        bool still = kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_STILL;
-        snprintf(name, sizeof name, "%s%s%s", kiln_footage_path(comparison->footage[i]),
-                 still ? "" : ": frame ", still ? "" : frame);
-        pictures[i] = kiln_compare_picture_create(images[i], mask ? mask->masked : NULL, name,
-                                                  comparison->threads, error);
-        if (!pictures[i])
-            return false;
-    }
-    if (!kiln_compare_pictures_agree(pictures, error))
-        return false;
-    if (mask)
-        kiln_mask_apply(mask, pictures[0], pictures[1]);
-    return true;
-}
-
-static bool load_pictures(struct comparison *comparison, const char *frame,
-                          struct kiln_compare_picture *pictures[2], struct kiln_error *error)
-{
-    struct kiln_asset_image *images[2] = {NULL, NULL};
-    bool ok = load_images(comparison, images, error) &&
-              make_pictures(comparison, frame, images, pictures, error);
-    for (int i = 0; i < 2; i++)
-        kiln_asset_image_destroy(&images[i]);
-    return ok;
-}
-
-static bool compare_frame(struct comparison *comparison, struct kiln_compare_frame *frame,
-                          uint32_t number, struct kiln_error *error)
-{
-    struct kiln_compare_picture *pictures[2] = {NULL, NULL};
-    bool ok = load_pictures(comparison, frame->name, pictures, error);
-    if (ok) {
-        const struct kiln_compare_picture *const both[2] = {pictures[0], pictures[1]};
-        ok = compare_pictures(comparison, both, frame, number, error);
-    } else if (error->code == KILN_INVALID_INPUT) {
-        frame->verdict = KILN_COMPARE_UNREADABLE;
-        frame->message = error->message;
-        if (comparison->failure.code == KILN_OK)
-            comparison->failure = *error;
-        ok = true;
-    }
-    kiln_compare_picture_destroy(&pictures[0]);
-    kiln_compare_picture_destroy(&pictures[1]);
-    return ok;
-}
-
 /* ---- All frames ---------------------------------------------------------------------------- */
 
 /* Copies a name such that every character can be shown, since it may be the name of any file. */
@@ -212,7 +50,7 @@ static void add_to_result(struct comparison *comparison, const struct kiln_compa
     result->frames++;
     result->counts[frame->verdict]++;
     result->flip_s += frame->flip_s;
-    double score = frame->measured ? frame->score : INFINITY;
+    double score = frame->layer_count > 0 ? frame->score : INFINITY;
     if (score > comparison->worst_score) {
         comparison->worst_score = score;
         note_name(result->worst_frame, frame->name);
@@ -225,7 +63,7 @@ static void add_to_result(struct comparison *comparison, const struct kiln_compa
         comparison->sums[i] += value;
         result->mean[i] = comparison->sums[i] / result->measured;
         if (result->measured == 1 ||
-            kiln_metric_set_is_worse(&comparison->set, i, value, result->worst[i])) {
+            kiln_metric_set_is_worse(&comparison->frames.set, i, value, result->worst[i])) {
             result->worst[i] = value;
             note_name(result->worst_names[i], frame->name);
         }
@@ -239,7 +77,7 @@ static int order(const struct comparison *comparison, const struct kiln_footage_
 {
     if (!has[0] || !has[1])
         return has[0] ? -1 : 1;
-    switch (kiln_footage_kind(comparison->footage[0])) {
+    switch (kiln_footage_kind(comparison->frames.footage[0])) {
     case KILN_FOOTAGE_STILL:
         return 0;
     case KILN_FOOTAGE_FOLDER:
@@ -251,32 +89,64 @@ static int order(const struct comparison *comparison, const struct kiln_footage_
     return (next[0].number > next[1].number) - (next[0].number < next[1].number);
 }
 
+/* Compares a frame that both sides have. */
+static bool compare_both(struct comparison *comparison, struct kiln_compare_frame *frame,
+                         uint32_t number, struct kiln_arena *arena, struct kiln_error *error)
+{
+    struct kiln_error fault = {0};
+    if (!kiln_frame_compare(&comparison->frames, frame, number, arena, &fault, error))
+        return false;
+    comparison->result.hdr = comparison->frames.hdr;
+    if (fault.code == KILN_OK)
+        return true;
+    frame->message = kiln_arena_text(arena, fault.message, strlen(fault.message));
+    if (comparison->failure.code == KILN_OK)
+        comparison->failure = fault;
+    for (int i = 0; i < 2; i++) {
+        const struct kiln_footage *footage = comparison->frames.footage[i];
+        comparison->ended = comparison->ended || kiln_footage_has_failed(footage);
+    }
+    return frame->message || kiln_error_no_memory(error, "comparing %s", frame->name);
+}
+
+/* Compares a frame. first: below 0 if only the reference has it, above 0 if only the test does. */
+static bool compare_one(struct comparison *comparison, const struct kiln_footage_frame *chosen,
+                        int first, struct kiln_arena *arena, struct kiln_error *error)
+{
+    char name[256]; /* the frame's own name is lost with the next peek */
+    note_name(name, chosen->name);
+    struct kiln_compare_frame frame = {.size = sizeof frame, .name = name, .message = ""};
+    if (first == 0) {
+        if (!compare_both(comparison, &frame, chosen->number, arena, error))
+            return false;
+    } else {
+        frame.verdict = first < 0 ? KILN_COMPARE_MISSING : KILN_COMPARE_EXTRA;
+        frame.message = first < 0 ? "only in the reference" : "only in the test";
+        kiln_footage_skip(comparison->frames.footage[first > 0]);
+    }
+    add_to_result(comparison, &frame);
+    if (comparison->params->frame)
+        comparison->params->frame(comparison->params->user, &comparison->result, &frame);
+    return true;
+}
+
 /* Compares the next frame of either side; false at the end or with the error. */
 static bool compare_next(struct comparison *comparison, struct kiln_error *error)
 {
     struct kiln_footage_frame next[2];
     bool has[2];
     for (int i = 0; i < 2; i++)
-        has[i] = kiln_footage_peek(comparison->footage[i], &next[i]);
+        has[i] = kiln_footage_peek(comparison->frames.footage[i], &next[i]);
     if ((!has[0] && !has[1]) || comparison->ended)
         return false;
-    int first = order(comparison, next, has);
-    const struct kiln_footage_frame *chosen = &next[first > 0];
-    char name[256]; /* the frame's own name is lost with the next peek */
-    note_name(name, chosen->name);
-    struct kiln_compare_frame frame = {.size = sizeof frame, .name = name, .message = ""};
-    if (first == 0) {
-        if (!compare_frame(comparison, &frame, chosen->number, error))
-            return false;
-    } else {
-        frame.verdict = first < 0 ? KILN_COMPARE_MISSING : KILN_COMPARE_EXTRA;
-        frame.message = first < 0 ? "only in the reference" : "only in the test";
-        kiln_footage_skip(comparison->footage[first > 0]);
+    struct kiln_arena *arena = kiln_arena_create();
+    bool ok = arena || kiln_error_no_memory(error, "comparing a frame");
+    if (ok) {
+        const int first = order(comparison, next, has);
+        ok = compare_one(comparison, &next[first > 0], first, arena, error);
     }
-    add_to_result(comparison, &frame);
-    if (comparison->params->frame)
-        comparison->params->frame(comparison->params->user, &comparison->result, &frame);
-    return true;
+    kiln_arena_destroy(&arena);
+    return ok;
 }
 
 static bool compare_all(struct comparison *comparison, struct kiln_error *error)
@@ -310,8 +180,13 @@ static bool check_params(const struct kiln_compare_params *params, struct kiln_e
                               params->threshold);
     if (params->window < 1)
         return kiln_error_set(error, KILN_USAGE, "found a window of 0 pixels; it needs 1 or more");
-    if (!params->layer || !*params->layer)
+    if (params->layer && !*params->layer)
         return kiln_error_set(error, KILN_USAGE, "the name of the layer is empty");
+    if (!(params->data_limit >= 0 && isfinite(params->data_limit)))
+        return kiln_error_set(error, KILN_USAGE,
+                              "found a limit of %g for data; allowed are finite numbers of 0 or "
+                              "more",
+                              params->data_limit);
     return true;
 }
 
@@ -325,13 +200,13 @@ static bool check_kinds(const struct comparison *comparison, struct kiln_error *
         [KILN_FOOTAGE_NUMBERED] = "a pattern of numbered pictures",
         [KILN_FOOTAGE_VIDEO] = "a video",
     };
-    enum kiln_footage_kind a = kiln_footage_kind(comparison->footage[0]);
-    enum kiln_footage_kind b = kiln_footage_kind(comparison->footage[1]);
+    enum kiln_footage_kind a = kiln_footage_kind(comparison->frames.footage[0]);
+    enum kiln_footage_kind b = kiln_footage_kind(comparison->frames.footage[1]);
     bool numbers = a >= KILN_FOOTAGE_NUMBERED && b >= KILN_FOOTAGE_NUMBERED;
     return a == b || numbers ||
            kiln_error_set(error, KILN_USAGE, "%s is %s and %s is %s: they cannot be compared",
-                          kiln_footage_path(comparison->footage[0]), names[a],
-                          kiln_footage_path(comparison->footage[1]), names[b]);
+                          kiln_footage_path(comparison->frames.footage[0]), names[a],
+                          kiln_footage_path(comparison->frames.footage[1]), names[b]);
 }
 
 /* Declares the files that are read and written, so that no output replaces a compared picture or a
@@ -344,7 +219,7 @@ static bool claim_files(struct comparison *comparison, struct kiln_error *error)
     if (!comparison->claims)
         return kiln_error_no_memory(error, "files to compare");
     for (int i = 0; i < 2; i++) {
-        if (!kiln_footage_claim(comparison->footage[i], names[i], comparison->claims, error))
+        if (!kiln_footage_claim(comparison->frames.footage[i], names[i], comparison->claims, error))
             return false;
     }
     for (size_t i = 0; i < params->mask_count; i++) {
@@ -352,14 +227,15 @@ static bool claim_files(struct comparison *comparison, struct kiln_error *error)
         if (mask && !kiln_claims_read(comparison->claims, mask, "a mask", error))
             return false;
     }
-    const struct kiln_footage *reference = comparison->footage[0];
+    const struct kiln_footage *reference = comparison->frames.footage[0];
     return (!comparison->output_file ||
             kiln_claims_write(comparison->claims, comparison->output_file,
                               comparison->output_option, error)) &&
-           (!params->diff || kiln_difference_plan_claim(&comparison->diff, "--diff", reference,
-                                                        comparison->claims, error)) &&
-           (!params->error_map || kiln_difference_plan_claim(&comparison->error_map, "--error-map",
-                                                             reference, comparison->claims, error));
+           (!params->diff || kiln_difference_plan_claim(&comparison->frames.diff, "--diff",
+                                                        reference, comparison->claims, error)) &&
+           (!params->error_map ||
+            kiln_difference_plan_claim(&comparison->frames.error_map, "--error-map", reference,
+                                       comparison->claims, error));
 }
 
 static bool prepare(struct comparison *comparison, struct kiln_error *error)
@@ -368,29 +244,31 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
     const struct kiln_compare_params *params = comparison->params;
     bool own = params->limit_count > 0;
     if (!check_params(params, error) ||
-        !kiln_metric_set_make(&comparison->set, own ? params->limits : default_limits,
+        !kiln_metric_set_make(&comparison->frames.set, own ? params->limits : default_limits,
                               own ? params->limit_count : 1, error))
         return false;
     const char *const paths[2] = {params->reference, params->test};
     for (int i = 0; i < 2; i++) {
-        comparison->footage[i] = kiln_footage_open(paths[i], params->layer, error);
-        if (!comparison->footage[i])
+        comparison->frames.footage[i] = kiln_footage_open(paths[i], params->layer, error);
+        if (!comparison->frames.footage[i])
             return false;
     }
-    comparison->result.sequence = kiln_footage_kind(comparison->footage[0]) != KILN_FOOTAGE_STILL;
-    comparison->result.column_count = comparison->set.count;
-    memcpy(comparison->result.columns, comparison->set.columns, sizeof comparison->result.columns);
+    comparison->result.sequence =
+        kiln_footage_kind(comparison->frames.footage[0]) != KILN_FOOTAGE_STILL;
+    comparison->result.column_count = comparison->frames.set.count;
+    memcpy(comparison->result.columns, comparison->frames.set.columns,
+           sizeof comparison->result.columns);
     bool sequence = comparison->result.sequence;
     if (!check_kinds(comparison, error) ||
-        (params->diff && !kiln_difference_plan_make(&comparison->diff, params->diff, false,
+        (params->diff && !kiln_difference_plan_make(&comparison->frames.diff, params->diff, false,
                                                     sequence, params->overwrite, error)) ||
         (params->error_map &&
-         !kiln_difference_plan_make(&comparison->error_map, params->error_map, true, sequence,
-                                    params->overwrite, error)) ||
+         !kiln_difference_plan_make(&comparison->frames.error_map, params->error_map, true,
+                                    sequence, params->overwrite, error)) ||
         !claim_files(comparison, error))
         return false;
-    comparison->threads = kiln_threads_create(params->threads);
-    return comparison->threads ||
+    comparison->frames.threads = kiln_threads_create(params->threads);
+    return comparison->frames.threads ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "the system refuses to start threads");
 }
 
@@ -422,6 +300,7 @@ bool kiln_compare_with_output(const struct kiln_compare_params *params, const ch
     struct kiln_compare_params copy = kiln_compare_defaults();
     struct kiln_compare_mask *masks = NULL;
     struct comparison comparison = {.params = &copy,
+                                    .frames.params = &copy,
                                     .output_file = file,
                                     .output_option = option,
                                     .result = kiln_compare_result_empty(),
@@ -431,14 +310,12 @@ bool kiln_compare_with_output(const struct kiln_compare_params *params, const ch
     bool ok = copy_params(&copy, params, &masks, error) && prepare(&comparison, error) &&
               compare_all(&comparison, error);
     struct kiln_compare_result *found = &comparison.result;
-    found->same = ok && found->measured > 0 && found->counts[KILN_COMPARE_SAME] == found->frames;
+    found->same = ok && found->frames > 0 && found->counts[KILN_COMPARE_SAME] == found->frames;
     found->total_s = kiln_clock_seconds() - start_s;
     kiln_sized_give(result, found);
     free(masks);
-    kiln_threads_destroy(&comparison.threads);
-    kiln_mask_finish(&comparison.mask);
-    kiln_footage_close(&comparison.footage[0]);
-    kiln_footage_close(&comparison.footage[1]);
+    kiln_threads_destroy(&comparison.frames.threads);
+    kiln_frame_comparer_finish(&comparison.frames);
     kiln_claims_destroy(&comparison.claims);
     return ok;
 }

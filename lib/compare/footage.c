@@ -35,6 +35,8 @@ struct kiln_footage {
     size_t count, capacity, next;
 
     struct kiln_loader *loader;     /* keeps the decoding process for the next picture */
+    struct kiln_layers_in *layers;  /* of the frame that is open; NULL for one of a video */
+    struct kiln_asset_image *taken; /* the one layer of a frame of a video */
     struct kiln_video_in *video;    /* of a video; NULL for the pages of a picture */
     uint32_t pages, pages_read;     /* of a picture with several pages */
     struct kiln_asset_image *image; /* decoded ahead */
@@ -261,12 +263,19 @@ struct kiln_footage *kiln_footage_open(const char *path, const char *layer,
     return footage;
 }
 
+static void close_layers(struct kiln_footage *footage)
+{
+    kiln_layers_in_close(&footage->layers);
+    kiln_asset_image_destroy(&footage->taken);
+}
+
 void kiln_footage_close(struct kiln_footage **footage)
 {
     if (!*footage)
         return;
     kiln_video_in_close(&(*footage)->video);
     kiln_asset_image_destroy(&(*footage)->image);
+    close_layers(*footage);
     kiln_loader_destroy(&(*footage)->loader);
     free((*footage)->entries);
     struct kiln_arena *arena = (*footage)->arena;
@@ -356,7 +365,16 @@ static struct kiln_asset_image *take_file(const struct kiln_footage *footage,
     char path[KILN_PATH_SIZE];
     if (!kiln_footage_file(footage, path, error))
         return NULL;
-    return kiln_asset_image_load_layer(footage->loader, path, footage->layer, error);
+    const char *layer = footage->layer ? footage->layer : "beauty";
+    return kiln_asset_image_load_layer(footage->loader, path, layer, error);
+}
+
+/* Goes on to the next frame. The fault of the one before is one of its file. */
+static void go_on(struct kiln_footage *footage, bool ok, struct kiln_error *error)
+{
+    footage->next++;
+    if (!ok && error->code == KILN_IO)
+        error->code = KILN_INVALID_INPUT;
 }
 
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error)
@@ -364,10 +382,36 @@ struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct 
     struct kiln_asset_image *image = footage->kind == KILN_FOOTAGE_VIDEO
                                          ? take_video(footage, error)
                                          : take_file(footage, error);
-    footage->next++;
-    if (!image && error->code == KILN_IO)
-        error->code = KILN_INVALID_INPUT;
+    go_on(footage, image != NULL, error);
     return image;
+}
+
+bool kiln_footage_has_failed(const struct kiln_footage *footage)
+{
+    return footage->video_error.code != KILN_OK;
+}
+
+bool kiln_footage_open_layers(struct kiln_footage *footage, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    close_layers(footage);
+    if (footage->kind == KILN_FOOTAGE_VIDEO)
+        footage->taken = take_video(footage, error);
+    else if (kiln_footage_file(footage, path, error))
+        footage->layers = kiln_layers_in_open(footage->loader, path, footage->layer, error);
+    const bool ok = footage->taken || footage->layers;
+    go_on(footage, ok, error);
+    return ok;
+}
+
+bool kiln_footage_next_layer(struct kiln_footage *footage, struct kiln_image_layer *layer,
+                             struct kiln_error *error)
+{
+    if (footage->layers)
+        return kiln_layers_in_read(footage->layers, layer, error);
+    *layer = (struct kiln_image_layer){.name = "beauty", .image = footage->taken};
+    footage->taken = NULL;
+    return true;
 }
 
 void kiln_footage_skip(struct kiln_footage *footage)

@@ -3,7 +3,7 @@
 #ifndef KILN_COMPARE_FOOTAGE_H
 #define KILN_COMPARE_FOOTAGE_H
 
-#include "asset/image/image.h"
+#include "asset/image/layers_in.h"
 #include "kiln_program.h"
 
 enum kiln_footage_kind {
@@ -16,9 +16,9 @@ enum kiln_footage_kind {
 
 struct kiln_footage;
 
-/* Opens a path and lists its frames. layer (see image.h) must outlive it. NULL with
- * KILN_INVALID_INPUT when there is nothing that can be read, KILN_USAGE for a pattern that makes no
- * sense, KILN_DEVICE_FAILED when memory is short. */
+/* Opens a path and lists its frames. layer: the layer of pictures that is wanted, which must
+ * outlive the footage; NULL: all. NULL with KILN_INVALID_INPUT when there is nothing that can be
+ * read, KILN_USAGE for a pattern that makes no sense, KILN_DEVICE_FAILED when memory is short. */
 struct kiln_footage *kiln_footage_open(const char *path, const char *layer,
                                        struct kiln_error *error);
 void kiln_footage_close(struct kiln_footage **footage);
@@ -51,9 +51,21 @@ bool kiln_footage_visit(const struct kiln_footage *footage,
 bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
                         struct kiln_claims *claims, struct kiln_error *error);
 
-/* Decodes the frame that kiln_footage_peek found and goes on to the next one. The caller destroys
- * the picture. Returns NULL with the error. A video ends at its first error. */
+/* Decodes the picture of the frame that kiln_footage_peek found and goes on to the next one. The
+ * caller destroys the picture. Returns NULL with the error. A video ends at its first error. */
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error);
 void kiln_footage_skip(struct kiln_footage *footage);
+
+/* Returns whether a video has ended at an error. */
+bool kiln_footage_has_failed(const struct kiln_footage *footage);
+
+/* Opens the layers of the frame that kiln_footage_peek found, in the place of kiln_footage_take. A
+ * frame of a video has one, "beauty". */
+bool kiln_footage_open_layers(struct kiln_footage *footage, struct kiln_error *error);
+
+/* Decodes the next layer, in the order of kiln_order_layers. Returns true with the image, which the
+ * caller destroys, or with NULL behind the last layer. */
+bool kiln_footage_next_layer(struct kiln_footage *footage, struct kiln_image_layer *layer,
+                             struct kiln_error *error);
 
 #endif

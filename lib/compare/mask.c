@@ -31,6 +31,10 @@ static bool is_black(const struct kiln_asset_image *image, size_t pixel)
             if (((const uint16_t *)image->pixels)[i] != 0)
                 return false;
             break;
+        case KILN_IMAGE_U32:
+            if (((const uint32_t *)image->pixels)[i] != 0)
+                return false;
+            break;
         case KILN_IMAGE_F32: /* NaN is not black, so it is judged */
             if (!(((const float *)image->pixels)[i] <= 0.0f))
                 return false;

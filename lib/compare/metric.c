@@ -280,26 +280,26 @@ static double score_of(const struct kiln_compare_column *column, double value)
 
 bool kiln_metric_set_judge(const struct kiln_metric_set *set,
                            const struct kiln_measurement *measurement,
-                           struct kiln_compare_frame *frame, struct kiln_error *error)
+                           struct kiln_compare_layer *layer, struct kiln_error *error)
 {
-    frame->verdict = KILN_COMPARE_SAME;
-    frame->score = 0;
+    layer->verdict = KILN_COMPARE_SAME;
+    layer->score = 0;
     for (size_t i = 0; i < set->count; i++) {
         const struct kiln_compare_column *column = &set->columns[i];
         struct metric_value v = {
             .measurement = measurement, .percentile = set->percentiles[i], .error = error};
         if (!set->metrics[i]->compute(&v))
             return false;
-        frame->values[i] = v.value;
+        layer->values[i] = v.value;
         bool within =
             column->higher_is_better ? v.value >= column->limit : v.value <= column->limit;
-        frame->beyond[i] = column->limited && !within;
-        if (frame->beyond[i])
-            frame->verdict = KILN_COMPARE_DIFFERENT;
+        layer->beyond[i] = column->limited && !within;
+        if (layer->beyond[i])
+            layer->verdict = KILN_COMPARE_DIFFERENT;
         if (!column->limited)
             continue;
         double score = score_of(column, v.value);
-        frame->score = score > frame->score ? score : frame->score;
+        layer->score = score > layer->score ? score : layer->score;
     }
     return true;
 }

@@ -21,11 +21,11 @@ struct kiln_metric_set {
 bool kiln_metric_set_make(struct kiln_metric_set *set, const char *const *limits,
                           size_t limit_count, struct kiln_error *error);
 
-/* Fills the values of a frame, the flags of values beyond their limits, its score and its verdict.
+/* Fills the values of a layer, the flags of values beyond their limits, its score and its verdict.
  */
 bool kiln_metric_set_judge(const struct kiln_metric_set *set,
                            const struct kiln_measurement *measurement,
-                           struct kiln_compare_frame *frame, struct kiln_error *error);
+                           struct kiln_compare_layer *layer, struct kiln_error *error);
 
 /* Returns whether value a of column i is worse than b. */
 bool kiln_metric_set_is_worse(const struct kiln_metric_set *set, size_t i, double a, double b);

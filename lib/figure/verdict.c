@@ -91,7 +91,7 @@ static bool load_both(const struct kiln_fresh_figure *fresh,
     return pictures[0] && pictures[1] && kiln_compare_pictures_agree(pictures, error);
 }
 
-static void say_worst(const struct kiln_metric_set *set, const struct kiln_compare_frame *frame,
+static void say_worst(const struct kiln_metric_set *set, const struct kiln_compare_layer *layer,
                       const char *renderer, struct kiln_figure_result *result)
 {
     char found[160] = "";
@@ -100,9 +100,9 @@ static void say_worst(const struct kiln_metric_set *set, const struct kiln_compa
         if (!set->columns[i].limited)
             continue;
         length += (size_t)snprintf(found + length, sizeof found - length, "%s%s %.4f of %g",
-                                   length ? ", " : "", set->columns[i].name, frame->values[i],
+                                   length ? ", " : "", set->columns[i].name, layer->values[i],
                                    set->columns[i].limit);
-        result->stale = result->stale || frame->beyond[i];
+        result->stale = result->stale || layer->beyond[i];
     }
     snprintf(result->reason, sizeof result->reason, "drawn by '%.200s', %s limits: %s", renderer,
              result->stale ? "beyond the" : "within the", found);
@@ -120,7 +120,7 @@ static bool judge_by_metrics(const struct kiln_fresh_figure *fresh, const char *
     struct kiln_compare_picture *pictures[2] = {NULL, NULL};
     struct kiln_measurement measurement = {0};
     struct kiln_metric_set set;
-    struct kiln_compare_frame frame = {0};
+    struct kiln_compare_layer layer = {0};
     struct kiln_threads *threads = kiln_threads_create(fresh->threads);
     bool ok = threads || kiln_error_set(error, KILN_DEVICE_FAILED, "cannot start threads");
     ok = ok && kiln_metric_set_make(&set, limits, 1, error) &&
@@ -129,9 +129,9 @@ static bool judge_by_metrics(const struct kiln_fresh_figure *fresh, const char *
     if (fit) {
         ok = kiln_measurement_take(&measurement, pictures[0], pictures[1], &params, threads,
                                    error) &&
-             kiln_metric_set_judge(&set, &measurement, &frame, error);
+             kiln_metric_set_judge(&set, &measurement, &layer, error);
         if (ok)
-            say_worst(&set, &frame, renderer, result);
+            say_worst(&set, &layer, renderer, result);
     } else if (ok) {
         mark_stale(result, "it has another size now");
     }

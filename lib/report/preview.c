@@ -30,6 +30,7 @@ static float value_at(const struct kiln_asset_image *image, size_t index)
         return (float)((const uint8_t *)image->pixels)[index] / 255.0f;
     case KILN_IMAGE_U16:
         return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
+    case KILN_IMAGE_U32: /* of layers of data, which are no previews */
     case KILN_IMAGE_F32:
         break;
     }

@@ -122,6 +122,8 @@ static void take_frame(void *user, const struct kiln_compare_result *result,
     comparison->frame = *frame;
     snprintf(comparison->message, sizeof comparison->message, "%s", frame->message);
     comparison->frame.name = comparison->frame.message = "";
+    comparison->frame.layers = NULL; /* like the texts, they are gone after this call */
+    comparison->frame.layer_count = 0;
 }
 
 bool kiln_test_case_compare(const struct kiln_test_case *test_case, const char *golden,
@@ -132,6 +134,7 @@ bool kiln_test_case_compare(const struct kiln_test_case *test_case, const char *
     struct kiln_compare_params params = kiln_compare_defaults();
     params.reference = golden;
     params.test = picture;
+    params.layer = "beauty"; /* what the hash of a golden picture is of, too */
     params.limits = test_case->limits;
     params.limit_count = test_case->limit_count;
     params.threshold = test_case->test->threshold;

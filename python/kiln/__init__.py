@@ -13,7 +13,7 @@ Calls that fail raise :class:`kiln.Error` or one of its subclasses.
 """
 from . import _header
 from ._bake import BakeStats, SavedState, bake
-from ._compare import ComparedFrame, Comparison, Metric, compare
+from ._compare import ComparedFrame, ComparedLayer, Comparison, Metric, compare
 from ._device import Device, DeviceInfo, devices
 from ._errors import Code, DeviceError, Error, FileError, Interrupted, InvalidInput, OverLimit, UsageError
 from ._library import Cancel, version

@@ -45,6 +45,32 @@ class Metric:
 
 
 @dataclass(frozen=True)
+class ComparedLayer:
+    """One layer of a pair of pictures."""
+
+    name: str
+    """"beauty" is the picture, and the only layer of all formats but EXR."""
+    data: bool
+    """True if it holds no light, such as depths, and was compared by its numbers."""
+    verdict: str
+    """"same", "different", "missing" (only in the reference) or "extra" (only in the test)."""
+    message: str
+    """Why the layer was not measured, or how the kinds of files differ; else ""."""
+    equal: bool
+    """True if no number differs."""
+    values: Mapping[str, float]
+    """The values by the names of metrics; empty for data."""
+    score: float
+    """The largest share of a limit that a value takes up; up to 1 is within all limits."""
+    difference: float
+    """Of data: the largest difference of two numbers."""
+    differing: int
+    """Of data: how many numbers differ."""
+    worst_pixel: tuple[int, int]
+    """The x and y of a pixel of the largest difference."""
+
+
+@dataclass(frozen=True)
 class ComparedFrame:
     """One pair of pictures."""
 
@@ -61,6 +87,8 @@ class ComparedFrame:
     """The largest share of a limit that a value takes up; up to 1 is within all limits."""
     worst_pixel: tuple[int, int]
     """The x and y of a pixel of the largest difference."""
+    layers: tuple[ComparedLayer, ...]
+    """The layers; none if the pair is missing, extra or unreadable."""
 
 
 @dataclass(frozen=True)
@@ -92,11 +120,29 @@ def _columns(result: Any) -> list[str]:
     return [text(result.columns[i].name) for i in range(result.column_count)]
 
 
-def _frame(result: Any, found: Any) -> ComparedFrame:
-    values = {name: found.values[i] for i, name in enumerate(_columns(result))} if found.measured else {}
-    return ComparedFrame(name=text(found.name), verdict=text(lib.kiln_compare_verdict_name(found.verdict)),
-                         message=text(found.message), equal=found.equal, values=values, score=found.score,
+def _values(result: Any, found: Any) -> dict[str, float]:
+    return {name: found.values[i] for i, name in enumerate(_columns(result))} if found.measured else {}
+
+
+def _layer(result: Any, found: Any) -> ComparedLayer:
+    return ComparedLayer(name=text(found.name), data=found.data,
+                         verdict=text(lib.kiln_compare_verdict_name(found.verdict)), message=text(found.message),
+                         equal=found.equal, values=_values(result, found), score=found.score,
+                         difference=found.difference, differing=found.differing,
                          worst_pixel=(found.worst_x, found.worst_y))
+
+
+def _layers(result: Any, found: Any) -> tuple[ComparedLayer, ...]:
+    first = int(ffi.cast("uintptr_t", found.layers))
+    return tuple(_layer(result, ffi.cast("struct kiln_compare_layer *", first + i * found.layer_stride))
+                 for i in range(found.layer_count))
+
+
+def _frame(result: Any, found: Any) -> ComparedFrame:
+    return ComparedFrame(name=text(found.name), verdict=text(lib.kiln_compare_verdict_name(found.verdict)),
+                         message=text(found.message), equal=found.equal, values=_values(result, found),
+                         score=found.score, worst_pixel=(found.worst_x, found.worst_y),
+                         layers=_layers(result, found))
 
 
 def _metrics(result: Any) -> dict[str, Metric]:
@@ -136,16 +182,17 @@ def _as_file(picture: Picture, folder: str, name: str) -> PathLike:
 
 
 def compare(reference: Picture, test: Picture, *, limits: Union[str, Iterable[str], Mapping[str, float]] = (),
-            layer: str = "beauty", mode: str = "auto", threshold: Optional[float] = None,
+            layer: Optional[str] = None, mode: str = "auto", threshold: Optional[float] = None,
             window: Optional[int] = None, pixels_per_degree: Optional[float] = None,
             masks: Iterable[Mask] = (), diff: Optional[PathLike] = None, error_map: Optional[PathLike] = None,
-            overwrite: bool = False, threads: int = 0, cancel: Optional[Cancel] = None) -> Comparison:
+            overwrite: bool = False, threads: int = 0, data_limit: float = 0.0, cancel: Optional[Cancel] = None) -> Comparison:
     """Compares pictures as `kiln compare` does, by FLIP, SSIM and more, and judges them by limits.
 
     Each of `reference` and `test` is an array (as for :func:`write_picture`), a picture, a video, a folder of
     pictures, or a numbered pattern such as "frame_####.png". `limits` are {"flip.mean": 0.01} or texts
-    "flip.mean=0.01"; if there are none, `kiln.DEFAULT_LIMITS` are used. `layer` is the layer of EXR files to
-    compare. `mode` is "ldr", "hdr" or "auto", which is "hdr" for floats. `masks` are areas that are not judged:
+    "flip.mean=0.01"; if there are none, `kiln.DEFAULT_LIMITS` are used. `layer` is the layer of EXR
+    files to compare, instead of all; `data_limit` is the largest difference that passes of two numbers in layers
+    of data, such as depths. `mode` is "ldr", "hdr" or "auto", which is "hdr" for floats. `masks` are areas that are not judged:
     (x, y, width, height), or the path of a picture that is black there. `diff` is the path of a PNG of reference,
     test and error map side by side, `error_map` the path of a PNG of the error map alone.
 
@@ -155,7 +202,8 @@ def compare(reference: Picture, test: Picture, *, limits: Union[str, Iterable[st
         raise ValueError(f"mode: found {mode!r}, expected one of {', '.join(_MODES)}")
     watch = Watch()
     params = Struct("kiln_compare_params")
-    params.set("layer", layer)
+    if layer is not None:
+        params.set("layer", layer)
     params.set("mode", ffi.typeof("enum kiln_compare_mode").relements[_MODES[mode]])
     for name, value in (("threshold", threshold), ("window", window), ("pixels_per_degree", pixels_per_degree)):
         if value is not None:
@@ -164,6 +212,7 @@ def compare(reference: Picture, test: Picture, *, limits: Union[str, Iterable[st
         params.set(name, path)
     params.set("overwrite", overwrite)
     params.set("threads", threads)
+    params.set("data_limit", data_limit)
     params.set_texts("limits", "limit_count", pairs(limits, "limits"))
     _set_masks(params, masks)
     set_watch(params, watch, cancel)
@@ -186,4 +235,4 @@ def compare(reference: Picture, test: Picture, *, limits: Union[str, Iterable[st
     return Comparison(same=found.same, hdr=found.hdr, metrics=_metrics(found), frames=tuple(frames))
 
 
-__all__ = ["ComparedFrame", "Comparison", "Metric", "compare"]
+__all__ = ["ComparedFrame", "ComparedLayer", "Comparison", "Metric", "compare"]

@@ -60,7 +60,7 @@ static struct kiln_compare_picture *make_picture(struct level_picture p)
 
 struct judged {
     struct kiln_metric_set set;
-    struct kiln_compare_frame frame;
+    struct kiln_compare_layer layer;
     struct kiln_level_difference levels;
 };
 
@@ -76,7 +76,7 @@ static struct judged judge_pictures(struct kiln_compare_picture *a, struct kiln_
     if (!threads || !kiln_metric_set_make(&judged.set, &limits, 1, &error) ||
         !kiln_compare_pictures_agree(both, &error) ||
         !kiln_measurement_take(&m, a, b, &params, threads, &error) ||
-        !kiln_metric_set_judge(&judged.set, &m, &judged.frame, &error))
+        !kiln_metric_set_judge(&judged.set, &m, &judged.layer, &error))
         fail_msg("%s", error.message);
     judged.levels = m.levels;
     kiln_measurement_finish(&m);
@@ -95,7 +95,7 @@ static double value(const struct judged *judged, const char *name)
 {
     for (size_t i = 0; i < judged->set.count; i++) {
         if (strcmp(judged->set.columns[i].name, name) == 0)
-            return judged->frame.values[i];
+            return judged->layer.values[i];
     }
     fail_msg("no metric '%s'", name);
     return NAN;
@@ -117,7 +117,7 @@ static void flat_pictures_have_closed_forms(void **state)
     assert_near(value(&j, "differing.count"), 64 * 40, 0);
     assert_near(value(&j, "differing.share"), 1, 0);
     assert_near(value(&j, "window.share"), 1, 0);
-    assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
+    assert_int_equal(j.layer.verdict, KILN_COMPARE_DIFFERENT);
 }
 
 /* What a per-pixel comparator takes for equal. */
@@ -126,7 +126,7 @@ static void a_shift_of_eight_levels_is_seen(void **state)
     (void)state;
     struct judged j = judge(flat(64, 64, 3, 128), flat(64, 64, 3, 136));
     assert_near(value(&j, "flip.mean"), 0.1276, 1e-4);
-    assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
+    assert_int_equal(j.layer.verdict, KILN_COMPARE_DIFFERENT);
 }
 
 static void one_changed_channel_counts_as_such(void **state)
@@ -232,14 +232,14 @@ static void equal_pictures_are_equal_by_all_metrics(void **state)
     for (size_t i = 0; i < 3; i++) {
         uint32_t w = sizes[i][0], h = sizes[i][1];
         struct judged j = judge(noise(w, h, 4), noise(w, h, 4));
-        assert_int_equal(j.frame.verdict, KILN_COMPARE_SAME);
-        assert_true(j.frame.score == 0.0);
+        assert_int_equal(j.layer.verdict, KILN_COMPARE_SAME);
+        assert_true(j.layer.score == 0.0);
         for (size_t c = 0; c < j.set.count; c++) {
             const char *name = j.set.columns[c].name;
             double expected = strcmp(name, "ssim") == 0   ? 1.0
                               : strcmp(name, "psnr") == 0 ? INFINITY
                                                           : 0.0;
-            assert_true(j.frame.values[c] == expected);
+            assert_true(j.layer.values[c] == expected);
         }
     }
 }
@@ -250,7 +250,7 @@ static void low_range_metrics_are_symmetric(void **state)
     struct judged ab = judge(noise(90, 50, 1), noise(90, 50, 2));
     struct judged ba = judge(noise(90, 50, 2), noise(90, 50, 1));
     for (size_t i = 0; i < ab.set.count; i++)
-        assert_near(ab.frame.values[i], ba.frame.values[i], 1e-6);
+        assert_near(ab.layer.values[i], ba.layer.values[i], 1e-6);
 }
 
 static void alpha_alone_is_a_difference(void **state)
@@ -288,7 +288,7 @@ static void float_pictures_go_beyond_white(void **state)
     double level = 255 * 1.055 * (pow(40, 1 / 2.4) - pow(20, 1 / 2.4));
     assert_near(value(&j, "abs.max"), level, 1e-3);
     assert_true(value(&j, "flip.mean") > 0.01);
-    assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
+    assert_int_equal(j.layer.verdict, KILN_COMPARE_DIFFERENT);
 }
 
 /* Fire on black: the median of the reference is black, and an empty range of exposures would make
@@ -307,7 +307,7 @@ static void fire_on_black_is_compared(void **state)
             pictures[k] = picture_of(&image);
         }
         struct judged j = judge_pictures(pictures[0], pictures[1], KILN_COMPARE_DEFAULT_LIMITS, 8);
-        assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
+        assert_int_equal(j.layer.verdict, KILN_COMPARE_DIFFERENT);
         assert_true(value(&j, "flip.p99") > 0.1);
     }
 }
@@ -437,20 +437,20 @@ static void limits_decide(void **state)
     struct judged j =
         judge_pictures(make_picture(flat(8, 8, 3, 100)), make_picture(flat(8, 8, 3, 110)),
                        "abs.max=10,psnr=28.13,flip.p99.5=1,flip.mean=0,flip.mean=1", 8);
-    assert_int_equal(j.frame.verdict, KILN_COMPARE_SAME);
-    assert_true(j.frame.score > 0.999 && j.frame.score <= 1.0);
+    assert_int_equal(j.layer.verdict, KILN_COMPARE_SAME);
+    assert_true(j.layer.score > 0.999 && j.layer.score <= 1.0);
     assert_string_equal(j.set.columns[j.set.count - 1].name, "flip.p99.5");
     struct judged max = judge_pictures(make_picture(flat(8, 8, 3, 100)),
                                        make_picture(flat(8, 8, 3, 110)), "abs.max=9.9", 8);
-    assert_int_equal(max.frame.verdict, KILN_COMPARE_DIFFERENT);
-    assert_near(max.frame.score, 10 / 9.9, 1e-9);
+    assert_int_equal(max.layer.verdict, KILN_COMPARE_DIFFERENT);
+    assert_near(max.layer.score, 10 / 9.9, 1e-9);
     struct judged psnr = judge_pictures(make_picture(flat(8, 8, 3, 100)),
                                         make_picture(flat(8, 8, 3, 110)), "psnr=28.14", 8);
-    assert_int_equal(psnr.frame.verdict, KILN_COMPARE_DIFFERENT);
+    assert_int_equal(psnr.layer.verdict, KILN_COMPARE_DIFFERENT);
     struct judged zero = judge_pictures(make_picture(flat(8, 8, 3, 100)),
                                         make_picture(flat(8, 8, 3, 101)), "abs.max=0", 8);
-    assert_int_equal(zero.frame.verdict, KILN_COMPARE_DIFFERENT);
-    assert_true(isinf(zero.frame.score));
+    assert_int_equal(zero.layer.verdict, KILN_COMPARE_DIFFERENT);
+    assert_true(isinf(zero.layer.score));
 }
 
 /* ---- Second opinions ---------------------------------------------------------------------- */

@@ -25,6 +25,12 @@ bool kiln_file_is_gif(int file)
     return read_at(file, 0, head, sizeof head) && memcmp(head, "GIF8", 4) == 0;
 }
 
+bool kiln_file_is_exr(int file)
+{
+    uint8_t head[4];
+    return read_at(file, 0, head, sizeof head) && memcmp(head, "v/1\x01", 4) == 0;
+}
+
 bool kiln_file_is_tiff(int file)
 {
     uint8_t head[4];

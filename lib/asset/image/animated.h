@@ -1,4 +1,4 @@
-/* Finds whether a picture file has several frames. */
+/* Finds whether a picture file may have several frames, layers or pages. */
 #ifndef KILN_ASSET_IMAGE_ANIMATED_H
 #define KILN_ASSET_IMAGE_ANIMATED_H
 
@@ -8,8 +8,10 @@
  * pixels are not looked at. */
 bool kiln_file_is_animated(int file);
 
-/* Return whether an open file is a WebP, a GIF, or a TIFF, which may have several pages. */
+/* Return whether an open file is a WebP, a GIF, an EXR, which may have several layers, or a TIFF,
+ * which may have several pages. */
 bool kiln_file_is_webp(int file);
+bool kiln_file_is_exr(int file);
 bool kiln_file_is_gif(int file);
 bool kiln_file_is_tiff(int file);
 

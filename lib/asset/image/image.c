@@ -11,8 +11,6 @@
 #include "base/error.h"
 #include "base/file_in.h"
 
-#define ALLOWED "PNG, JPEG, WebP, TIFF, BMP, GIF or EXR"
-
 enum { HEAD_SIZE = 12 }; /* bytes of the longest signature */
 
 /* Signatures of the formats; '?' stands for any byte. */
@@ -64,7 +62,8 @@ static bool refuse_unknown(const struct head *head, const char *name, struct kil
         snprintf(found + 3 * i, sizeof found - 3 * i, " %02x", head->bytes[i]);
     return kiln_error_set(
         error, KILN_INVALID_INPUT,
-        "%s: the file is not an image: it starts with the bytes%s; allowed are " ALLOWED " files",
+        "%s: the file is not an image: it starts with the bytes%s; allowed are " KILN_IMAGE_FORMATS
+        " files",
         name, found);
 }
 
@@ -168,7 +167,8 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
 static struct kiln_asset_image *load(struct kiln_loader *loader, const char *path,
                                      const struct wanted *what, struct kiln_error *error)
 {
-    const struct kiln_loader_file wanted = {path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES};
+    const struct kiln_loader_file wanted = {path, "image", KILN_IMAGE_FORMATS,
+                                            KILN_MAX_IMAGE_BYTES};
     size_t size = 0;
     const int file = kiln_loader_open(loader, &wanted, &size, error);
     if (file < 0)

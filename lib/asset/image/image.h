@@ -6,10 +6,14 @@
 
 #include "asset/loader/loader.h"
 
+/* The formats of pictures, for messages. */
+#define KILN_IMAGE_FORMATS "PNG, JPEG, WebP, TIFF, BMP, GIF or EXR"
+
 enum {
     KILN_MAX_IMAGE_EDGE = 16384,      /* pixels a side */
     KILN_MAX_IMAGE_PIXELS = 1 << 26,  /* width * height */
     KILN_MAX_IMAGE_PAGES = 65536,     /* of a file */
+    KILN_MAX_IMAGE_LAYERS = 1024,     /* of a file */
     KILN_MAX_IMAGE_BYTES = 256 << 20, /* bytes of the file */
 };
 
@@ -17,6 +21,7 @@ enum kiln_image_type {
     KILN_IMAGE_U8,  /* uint8_t, 0..255 */
     KILN_IMAGE_U16, /* uint16_t, 0..65535, host byte order */
     KILN_IMAGE_F32, /* float */
+    KILN_IMAGE_U32, /* uint32_t: whole numbers of a layer of data (layers_in.h) */
 };
 
 /* Holds RGBA pixels of the picture as it is shown: upright, and of sRGB's primaries
@@ -39,7 +44,7 @@ struct kiln_asset_image {
 static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image)
 {
     static const size_t pixel_bytes[] = {
-        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16};
+        [KILN_IMAGE_U8] = 4, [KILN_IMAGE_U16] = 8, [KILN_IMAGE_F32] = 16, [KILN_IMAGE_U32] = 16};
     return (size_t)image->width * image->height * pixel_bytes[image->type];
 }
 

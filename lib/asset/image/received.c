@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/budget.h"
 #include "base/error.h"
@@ -15,12 +16,25 @@ uint64_t kiln_received_most_pixels(const struct kiln_loader *loader)
     return left < KILN_MAX_IMAGE_PIXELS ? left : KILN_MAX_IMAGE_PIXELS;
 }
 
-static bool is_sound(const struct kiln_decode_answer *answer)
+/* Takes what an answer says of a layer besides its pixels. */
+static bool take_layer(struct kiln_received *received, const struct kiln_decode_answer *answer)
 {
+    const size_t length = strlen(answer->text);
+    if (length < 1 || length >= sizeof received->layer || answer->data > 1 ||
+        (answer->type == KILN_IMAGE_U32 && !answer->data))
+        return false;
+    memcpy(received->layer, answer->text, length + 1);
+    received->data = answer->data;
+    return true;
+}
+
+static bool is_sound(const struct kiln_decode_answer *answer, bool layers)
+{
+    const uint32_t last = layers ? KILN_IMAGE_U32 : KILN_IMAGE_F32;
     return answer->width >= 1 && answer->height >= 1 && answer->width <= KILN_MAX_IMAGE_EDGE &&
            answer->height <= KILN_MAX_IMAGE_EDGE &&
            (uint64_t)answer->width * answer->height <= KILN_MAX_IMAGE_PIXELS &&
-           answer->channels >= 1 && answer->channels <= 4 && answer->type <= KILN_IMAGE_F32 &&
+           answer->channels >= 1 && answer->channels <= 4 && answer->type <= last &&
            answer->srgb <= 1 && answer->premultiplied <= 1 && answer->pages >= 1 &&
            answer->pages <= KILN_MAX_IMAGE_PAGES;
 }
@@ -74,8 +88,10 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
         return NULL;
     struct kiln_asset_image *image = calloc(1, sizeof *image);
     bool ok = image || kiln_error_no_memory(reason, "a picture");
-    ok = ok && (is_sound(&answer) || kiln_error_set(reason, KILN_INVALID_INPUT,
-                                                    "the decoder returned inconsistent data"));
+    const bool sound =
+        is_sound(&answer, received->layers) && (!received->layers || take_layer(received, &answer));
+    ok = ok && (sound || kiln_error_set(reason, KILN_INVALID_INPUT,
+                                        "the decoder returned inconsistent data"));
     if (ok) {
         *image = (struct kiln_asset_image){.width = answer.width,
                                            .height = answer.height,

@@ -9,10 +9,14 @@ struct kiln_received {
     struct kiln_helper *helper;
     const char *name; /* name of the file, for messages */
     bool finite;      /* true: pixels that are not finite are an error */
+    bool layers;      /* pictures are layers, which may be data of whole numbers */
     /* pixels that the budget has counted already: those of the largest frame so far */
     uint64_t counted;
     uint64_t refused;   /* result: pixels of a picture that the budget has no room for */
     bool needs_profile; /* result: the answer was KILN_DECODE_NEEDS_PROFILE */
+    /* results of a layer: its name, which is not empty, and whether it holds no light */
+    char layer[KILN_LAYER_NAME_SIZE];
+    bool data;
 };
 
 /* Returns how many pixels the budget of a scene has left, at most the limit of one image. */

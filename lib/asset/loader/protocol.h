@@ -29,6 +29,7 @@ enum kiln_decode_kind {
 };
 
 enum {
+    KILN_LAYER_NAME_SIZE = 512, /* bytes of the name of a layer of a picture, with the NUL */
     KILN_DECODE_SOCKET = 3, /* kiln-decode has the socket as this descriptor */
     /* the limit of processor time for a picture, a frame of a video or a mesh */
     KILN_DECODE_SECONDS = 30
@@ -58,9 +59,12 @@ struct kiln_decode_request {
     uint32_t frames;
     uint32_t page;        /* of a picture: which page of the file; 0: the first */
     uint32_t sky;         /* of a picture: it is wrapped around the scene; cube maps are refused */
+    /* of an EXR: every layer is wanted, or the one named below, each as a picture with its name in
+     * the order of kiln_order_layers, and KILN_DECODE_END after the last */
+    uint32_t layers;
     uint64_t most_bytes;  /* size limit of the file in bytes */
     uint64_t most_pixels; /* limit of a picture's width * height */
-    char layer[512];      /* name of a layer of an EXR file */
+    char layer[KILN_LAYER_NAME_SIZE]; /* name of a layer of an EXR file; "": see layers */
 };
 
 /* Kinds of answers. */
@@ -72,10 +76,11 @@ enum kiln_decode_what {
      * most_pixels, the code is KILN_OVER_LIMIT, and width and height are set. */
     KILN_DECODE_FAILED,
 
-    /* Describes a picture or the next frame of a video. Its pixels follow. */
+    /* Describes a picture, the next frame of a video, or the next layer of a picture, whose name is
+     * the text. Its pixels follow. */
     KILN_DECODE_PIXELS,
 
-    /* A video has no more frames. */
+    /* A video has no more frames, or a picture no more layers. */
     KILN_DECODE_END,
 
     /* A mesh names another file; the text is that name. kiln sends a struct kiln_decode_file. */
@@ -95,6 +100,7 @@ struct kiln_decode_answer {
     char text[KILN_MESSAGE_SIZE];
     /* of a picture: the members of struct kiln_asset_image with these names */
     uint32_t width, height, channels, type, srgb, premultiplied, pages;
+    uint32_t data;                                         /* of a layer: it holds no light */
     uint32_t vertices, triangles;                          /* of a mesh: counts */
     uint32_t has_normals;                                  /* of a mesh that moves */
     uint32_t nodes, bones, clips, channels_of_clips, keys; /* counts of the same */
