@@ -8,25 +8,43 @@
 #include <unistd.h>
 
 #include "asset/geometry/skin.h"
+#include "asset/image/layers_in.h"
 #include "asset/image/video_in.h"
 #include "fuzz.h"
 #include "image_check.h"
 #include "mesh_check.h"
 
 static char fed[64]; /* path of the file that holds the input; kiln_feeder sends it */
+static char exr[64]; /* path of a file that begins as an EXR does */
 
 static void begin(void)
 {
     snprintf(fed, sizeof fed, "/tmp/kiln-fuzz-%d.mp4", (int)getpid());
+    snprintf(exr, sizeof exr, "/tmp/kiln-fuzz-%d.exr", (int)getpid());
     setenv("KILN_FEED", fed, 1);
     setenv("KILN_LIBEXEC_DIR", KILN_FEEDER, 1);
 }
 
-static void feed(const uint8_t *data, size_t size)
+static void write_file(const char *path, const void *data, size_t size)
 {
-    const int file = open(fed, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     require(file >= 0 && write(file, data, size) == (ssize_t)size, "the file cannot be written");
     close(file);
+}
+
+static void read_layers(void)
+{
+    struct kiln_error error = {0};
+    struct kiln_image_layer layer = {.image = NULL};
+    write_file(exr, "v/1\x01", 4);
+    struct kiln_layers_in *layers = kiln_layers_in_open(NULL, exr, NULL, &error);
+    while (layers && kiln_layers_in_read(layers, &layer, &error) && layer.image) {
+        require(*layer.name && memchr(layer.name, '\0', sizeof layer.name), "a layer has no name");
+        require(layer.data || layer.image->type != KILN_IMAGE_U32, "colours are whole numbers");
+        fuzz_taken = check_image(layer.image, &error) || fuzz_taken;
+    }
+    kiln_layers_in_close(&layers);
+    unlink(exr);
 }
 
 static void read_video(void)
@@ -45,9 +63,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct kiln_error error = {0};
     if (!*fed)
         begin();
-    feed(data, size);
+    write_file(fed, data, size);
     fuzz_taken = check_image(kiln_asset_image_parse(png, sizeof png, "fuzz.png", &error), &error);
     read_video();
+    read_layers();
     struct kiln_mesh *mesh = kiln_mesh_parse("v", 1, "fuzz.obj", &error);
     if (mesh)
         check_mesh(mesh);

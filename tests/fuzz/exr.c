@@ -2,9 +2,23 @@
  * image within the size limits or an error, and never crash. Files that need OpenEXR's C++ are not
  * decoded here. If this fails, a malicious EXR file may take over
  * kiln-decode, the separate process that decodes untrusted files. */
+#include <stdio.h>
+
+#include "asset/image/layers_in.h"
 #include "decode.h"
 #include "fuzz.h"
 #include "image_check.h"
+
+/* Each layer must have a name of its own, in order. */
+static void take(void *user, const char *name, bool data, struct kiln_asset_image *image)
+{
+    char *last = user;
+    struct kiln_error error = {0};
+    require(*name && (!*last || kiln_order_layers(last, name) < 0), "layers are out of order");
+    require(data || image->type != KILN_IMAGE_U32, "colours are whole numbers");
+    fuzz_taken = check_image(image, &error) || fuzz_taken;
+    snprintf(last, KILN_LAYER_NAME_SIZE, "%s", name);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -20,5 +34,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                          .error = &error};
         fuzz_taken = check_image(decode_exr(&picture), &error) || fuzz_taken;
     }
+    struct kiln_error error = {0};
+    char last[KILN_LAYER_NAME_SIZE] = "";
+    struct decode_picture all = {.bytes = data,
+                                 .size = size,
+                                 .format = KILN_PICTURE_EXR,
+                                 .layer = "",
+                                 .layers = true,
+                                 .most_pixels = KILN_MAX_IMAGE_PIXELS,
+                                 .error = &error};
+    const bool ok = decode_exr_layers(&all, take, last);
+    require(all.needs_profile || ok == (error.code == KILN_OK), "a failure has no error");
     return 0;
 }

@@ -12,6 +12,7 @@
 #include "decode.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
+#include "support/exr_file.h"
 
 #define FOLDER KILN_SOURCE_DIR "/tests/exr/"
 
@@ -109,6 +110,19 @@ static void layers_of_all_parts_are_found(void **state)
                         "left.eye.id, left.eye.spec.B, left.eye.spec.G, left.eye.spec.R");
 }
 
+/* oiiotool --dumpdata lists the samples of each pixel: none, one at 10, two at 1 and 2, three at
+ * 10, 9 and 8, and so on along each diagonal. */
+static void data_of_deep_layers_are_those_of_the_nearest_sample(void **state)
+{
+    (void)state;
+    static const float expected[] = {0, 10, 1, 8};
+    struct kiln_asset_image *image = load("deep", "depth");
+    const float *pixel = image->pixels;
+    for (uint32_t i = 0; i < image->width * image->height; i++, pixel += 4)
+        assert_true(*pixel == expected[(i % image->width + i / image->width) % 4]);
+    kiln_asset_image_destroy(&image);
+}
+
 /* Data have no primaries. */
 static void data_stay_raw(void **state)
 {
@@ -136,103 +150,7 @@ static void a_cube_map_is_no_sky(void **state)
 
 /* ---- files of the test's own ----------------------------------------------------------------- */
 
-struct bytes {
-    unsigned char data[4096];
-    size_t size;
-};
-
-static void put(struct bytes *bytes, const void *data, size_t size)
-{
-    assert_true(bytes->size + size <= sizeof bytes->data);
-    memcpy(bytes->data + bytes->size, data, size);
-    bytes->size += size;
-}
-
-static void put_word(struct bytes *bytes, uint32_t word)
-{
-    const unsigned char data[4] = {(unsigned char)word, (unsigned char)(word >> 8),
-                                   (unsigned char)(word >> 16), (unsigned char)(word >> 24)};
-    put(bytes, data, 4);
-}
-
-static void put_attribute(struct bytes *bytes, const char *name, const char *type, uint32_t size)
-{
-    put(bytes, name, strlen(name) + 1);
-    put(bytes, type, strlen(type) + 1);
-    put_word(bytes, size);
-}
-
-static void put_window(struct bytes *bytes, const char *name, const int32_t window[4])
-{
-    put_attribute(bytes, name, "box2i", 16);
-    for (int i = 0; i < 4; i++)
-        put_word(bytes, (uint32_t)window[i]);
-}
-
-struct channel {
-    const char *name;
-    uint32_t type;     /* 0 uint, 1 half, 2 float */
-    uint32_t bits;     /* of each sample */
-    uint32_t sampling; /* 0: 1 */
-};
-
-/* Writes an uncompressed file of scan lines whose channels are constant. */
-static void write_file(struct bytes *bytes, const struct channel *channels, size_t count,
-                       const int32_t data[4], const int32_t display[4])
-{
-    uint32_t list = 1, width = (uint32_t)(data[2] - data[0] + 1);
-    uint32_t height = (uint32_t)(data[3] - data[1] + 1), line = 0;
-    bytes->size = 0;
-    put_word(bytes, 20000630);
-    put_word(bytes, 2);
-    for (size_t i = 0; i < count; i++) {
-        list += (uint32_t)strlen(channels[i].name) + 17;
-        line += width * (channels[i].type == 1 ? 2 : 4);
-    }
-    put_attribute(bytes, "channels", "chlist", list);
-    for (size_t i = 0; i < count; i++) {
-        put(bytes, channels[i].name, strlen(channels[i].name) + 1);
-        put_word(bytes, channels[i].type);
-        put_word(bytes, 0);
-        put_word(bytes, channels[i].sampling ? channels[i].sampling : 1);
-        put_word(bytes, channels[i].sampling ? channels[i].sampling : 1);
-    }
-    put(bytes, "", 1);
-    put_attribute(bytes, "compression", "compression", 1);
-    put(bytes, "", 1);
-    put_window(bytes, "dataWindow", data);
-    put_window(bytes, "displayWindow", display);
-    put_attribute(bytes, "lineOrder", "lineOrder", 1);
-    put(bytes, "", 1);
-    put_attribute(bytes, "pixelAspectRatio", "float", 4);
-    put_word(bytes, 0x3f800000);
-    put_attribute(bytes, "screenWindowCenter", "v2f", 8);
-    put_word(bytes, 0);
-    put_word(bytes, 0);
-    put_attribute(bytes, "screenWindowWidth", "float", 4);
-    put_word(bytes, 0x3f800000);
-    put(bytes, "", 1);
-    const size_t table = bytes->size;
-    for (uint32_t y = 0; y < height && height < 100; y++) {
-        put_word(bytes, (uint32_t)(table + (size_t)8 * height + (size_t)y * (8 + line)));
-        put_word(bytes, 0);
-    }
-    for (uint32_t y = 0; y < height && height < 100; y++) {
-        put_word(bytes, (uint32_t)data[1] + y);
-        put_word(bytes, line);
-        for (size_t i = 0; i < count; i++) {
-            for (uint32_t x = 0; x < width; x++) {
-                const unsigned char sample[4] = {(unsigned char)channels[i].bits,
-                                                 (unsigned char)(channels[i].bits >> 8),
-                                                 (unsigned char)(channels[i].bits >> 16),
-                                                 (unsigned char)(channels[i].bits >> 24)};
-                put(bytes, sample, channels[i].type == 1 ? 2 : 4);
-            }
-        }
-    }
-}
-
-static struct kiln_asset_image *parse(const struct bytes *bytes, const char *layer,
+static struct kiln_asset_image *parse(const struct exr_bytes *bytes, const char *layer,
                                       struct kiln_error *error)
 {
     struct decode_picture picture = {.bytes = bytes->data,
@@ -244,7 +162,7 @@ static struct kiln_asset_image *parse(const struct bytes *bytes, const char *lay
     return decode_exr(&picture);
 }
 
-static void expect_pixel(const struct bytes *bytes, const char *layer, uint32_t channels,
+static void expect_pixel(const struct exr_bytes *bytes, const char *layer, uint32_t channels,
                          const float expected[4])
 {
     struct kiln_error error = {0};
@@ -264,22 +182,22 @@ static void channels_of_all_types_are_taken(void **state)
 {
     (void)state;
     enum { ONE = 0x3c00, TWO = 0x4000, THREE = 0x4200, LEAST = 0x8001, HALF = 1, FLOAT = 2 };
-    struct bytes bytes;
-    static const struct channel depth[] = {
+    struct exr_bytes bytes;
+    static const struct exr_channel depth[] = {
         {"B", HALF, THREE, 1}, {"G", HALF, TWO, 1}, {"R", HALF, ONE, 1}, {"Z", HALF, LEAST, 1}};
-    write_file(&bytes, depth, 4, small, small);
+    exr_file_write(&bytes, depth, 4, small, small);
     expect_pixel(&bytes, "beauty", 3, (float[]){1, 2, 3, 1});
     expect_pixel(&bytes, "depth", 1, (float[]){-0x1p-24f, -0x1p-24f, -0x1p-24f, 1});
-    static const struct channel mixed[] = {{"A", 0, 16777216, 1}, {"B", FLOAT, 0x40400000, 1},
-                                           {"G", 0, 2, 1},        {"R", HALF, ONE, 1},
-                                           {"id", 0, 7, 1},       {"x.R", HALF, TWO, 1}};
-    write_file(&bytes, mixed, 6, small, small);
+    static const struct exr_channel mixed[] = {{"A", 0, 16777216, 1}, {"B", FLOAT, 0x40400000, 1},
+                                               {"G", 0, 2, 1},        {"R", HALF, ONE, 1},
+                                               {"id", 0, 7, 1},       {"x.R", HALF, TWO, 1}};
+    exr_file_write(&bytes, mixed, 6, small, small);
     expect_pixel(&bytes, "beauty", 4, (float[]){1, 2, 3, 16777216});
     expect_pixel(&bytes, "id", 1, (float[]){7, 7, 7, 1});
     expect_pixel(&bytes, "x", 1, (float[]){2, 2, 2, 1});
 }
 
-static void expect_refusal(const struct bytes *bytes, const char *layer, const char *message)
+static void expect_refusal(const struct exr_bytes *bytes, const char *layer, const char *message)
 {
     struct kiln_error error = {0};
     assert_null(parse(bytes, layer, &error));
@@ -289,26 +207,26 @@ static void expect_refusal(const struct bytes *bytes, const char *layer, const c
 static void what_kiln_cannot_show_is_refused(void **state)
 {
     (void)state;
-    struct bytes bytes;
-    static const struct channel large[] = {{"id", 0, 16777217, 1}};
-    write_file(&bytes, large, 1, small, small);
+    struct exr_bytes bytes;
+    static const struct exr_channel large[] = {{"id", 0, 16777217, 1}};
+    exr_file_write(&bytes, large, 1, small, small);
     expect_refusal(
         &bytes, "id",
         "the layer 'id' has the whole number 16777217, which no float equals; kiln reads "
         "whole numbers up to 16777216");
-    static const struct channel sparse[] = {{"B", 1, 0, 1}, {"G", 1, 0, 2}, {"R", 1, 0, 1}};
-    write_file(&bytes, sparse, 3, small, small);
+    static const struct exr_channel sparse[] = {{"B", 1, 0, 1}, {"G", 1, 0, 2}, {"R", 1, 0, 1}};
+    exr_file_write(&bytes, sparse, 3, small, small);
     expect_refusal(
         &bytes, "beauty",
         "the channel 'G' has one sample for 2 x 2 pixels; kiln reads this only of RY and "
         "BY, with 2 x 2 pixels for both");
-    static const struct channel grey[] = {{"Y", 1, 0, 1}};
+    static const struct exr_channel grey[] = {{"Y", 1, 0, 1}};
     static const int32_t wide[4] = {0, 0, 16384, 0}, high[4] = {0, -5, 0, 16379};
     static const char *const too_large =
         "EXR image of 16385 x 1 pixels; allowed are 1 to 16384 a side and at most 67108864 in all";
-    write_file(&bytes, grey, 1, small, wide);
+    exr_file_write(&bytes, grey, 1, small, wide);
     expect_refusal(&bytes, "beauty", too_large);
-    write_file(&bytes, grey, 1, high, small);
+    exr_file_write(&bytes, grey, 1, high, small);
     expect_refusal(&bytes, "beauty",
                    "EXR image of 1 x 16385 pixels; allowed are 1 to 16384 a side and at most "
                    "67108864 in all");
@@ -318,12 +236,12 @@ static void what_kiln_cannot_show_is_refused(void **state)
 static void the_display_window_is_the_picture(void **state)
 {
     (void)state;
-    static const struct channel grey[] = {{"Y", 2, 0x3f800000, 1}};
+    static const struct exr_channel grey[] = {{"Y", 2, 0x3f800000, 1}};
     static const int32_t data[2][4] = {{0, 0, 3, 1}, {5, 2, 8, 3}}, display[4] = {0, 0, 6, 4};
-    struct bytes bytes;
+    struct exr_bytes bytes;
     for (int i = 0; i < 2; i++) {
         struct kiln_error error = {0};
-        write_file(&bytes, grey, 1, data[i], display);
+        exr_file_write(&bytes, grey, 1, data[i], display);
         struct kiln_asset_image *image = parse(&bytes, "beauty", &error);
         assert_string_equal(error.message, "");
         assert_int_equal(image->width, 7);
@@ -344,6 +262,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_read_as_others_read_them),
         cmocka_unit_test(layers_of_all_parts_are_found),
+        cmocka_unit_test(data_of_deep_layers_are_those_of_the_nearest_sample),
         cmocka_unit_test(data_stay_raw),
         cmocka_unit_test(a_cube_map_is_no_sky),
         cmocka_unit_test(channels_of_all_types_are_taken),

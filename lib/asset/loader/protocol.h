@@ -30,7 +30,7 @@ enum kiln_decode_kind {
 
 enum {
     KILN_LAYER_NAME_SIZE = 512, /* bytes of the name of a layer of a picture, with the NUL */
-    KILN_DECODE_SOCKET = 3, /* kiln-decode has the socket as this descriptor */
+    KILN_DECODE_SOCKET = 3,     /* kiln-decode has the socket as this descriptor */
     /* the limit of processor time for a picture, a frame of a video or a mesh */
     KILN_DECODE_SECONDS = 30
 };
@@ -57,13 +57,13 @@ struct kiln_decode_request {
     /* of a WebP (KILN_DECODE_WEBP) or GIF (KILN_DECODE_PICTURE): all frames are wanted, and
      * answered like those of a video */
     uint32_t frames;
-    uint32_t page;        /* of a picture: which page of the file; 0: the first */
-    uint32_t sky;         /* of a picture: it is wrapped around the scene; cube maps are refused */
+    uint32_t page; /* of a picture: which page of the file; 0: the first */
+    uint32_t sky;  /* of a picture: it is wrapped around the scene; cube maps are refused */
     /* of an EXR: every layer is wanted, or the one named below, each as a picture with its name in
      * the order of kiln_order_layers, and KILN_DECODE_END after the last */
     uint32_t layers;
-    uint64_t most_bytes;  /* size limit of the file in bytes */
-    uint64_t most_pixels; /* limit of a picture's width * height */
+    uint64_t most_bytes;              /* size limit of the file in bytes */
+    uint64_t most_pixels;             /* limit of a picture's width * height */
     char layer[KILN_LAYER_NAME_SIZE]; /* name of a layer of an EXR file; "": see layers */
 };
 

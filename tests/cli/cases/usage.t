@@ -311,8 +311,10 @@ $ kiln help compare
 1|limits. Each operand is a picture, a video, a folder of pictures, or a pattern
 1|such as frame_%04d.png or frame_####.png. Pictures of folders are paired by
 1|name, pictures of patterns by number. Frames of a video are numbered from 0. A
-1|missing or extra frame is a difference, and so is another size or other
-1|channels. Alpha is judged on black and on white.
+1|missing or extra frame is a difference, and so is another size. Alpha is judged
+1|on black and on white. Of EXR files, every layer is judged: colours by the
+1|limits, data such as depths by their numbers; a missing or extra layer is a
+1|difference.
 1|
 1|Exit code 0: the same within the limits; 1: different; 2: usage; 3: something
 1|cannot be read or has values that are not finite outside of masks; 6: --diff or
@@ -335,11 +337,13 @@ $ kiln help compare
 1|                              test are taken from the reference.
 1|      --mask FILE             Do not judge the places where this picture is
 1|                              black. It must have the same size.
-1|      --layer LAYER           Layer of EXR files to compare, such as depth or
-1|                              fire. Default: beauty.
+1|      --layer LAYER           Layer of EXR files to compare, such as beauty,
+1|                              depth or fire. Default: all layers.
+1|      --data-limit N          The largest difference that passes of two numbers
+1|                              in layers of data, such as depths. Default: 0.
 1|      --range auto|ldr|hdr    How FLIP judges light: ldr clamps it at white, hdr
 1|                              judges several exposures of the reference.
-1|                              Default: auto: hdr for EXR.
+1|                              Default: auto: hdr if one of the pictures is EXR.
 1|      --ppd N                 Number of pixels in a degree of the viewer's field
 1|                              of view. Default: 67.0206, a 0.7 m wide screen of
 1|                              3840 pixels from 0.7 m.
