@@ -95,6 +95,7 @@ struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
 struct kiln_asset_image *decode_gif(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
+struct kiln_asset_image *decode_hdr(struct decode_picture *picture);
 
 /* Takes an image, which it owns from then on. Returns false if no more are wanted. */
 typedef bool decode_take(void *user, struct kiln_asset_image *image);

@@ -150,6 +150,8 @@ static void send_image(const struct kiln_asset_image *image, uint32_t pages)
 static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
                                             struct decode_picture *picture)
 {
+    if (picture->format == KILN_PICTURE_HDR)
+        return decode_hdr(picture);
     if (kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR)
         return decode_exr(picture);
     if (kind == KILN_DECODE_PICTURE)

@@ -11,11 +11,11 @@
 #include "base/error.h"
 #include "base/file_in.h"
 
-#define ALLOWED "PNG, JPEG, WebP, TIFF, BMP, GIF or EXR"
+#define ALLOWED "PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR"
 
 enum { HEAD_SIZE = 12 }; /* bytes of the longest signature */
 
-/* Signatures of the formats; '?' stands for any byte. */
+/* Signatures of the formats; '.' stands for any byte. */
 static const struct signature {
     const char *bytes;
     size_t length;
@@ -25,7 +25,7 @@ static const struct signature {
 } signatures[] = {
     {"\x89PNG\r\n\x1a\n", 8, KILN_PICTURE_PNG, KILN_DECODE_PNG, "PNG"},
     {"\xff\xd8\xff", 3, KILN_PICTURE_JPEG, KILN_DECODE_JPEG, "JPEG"},
-    {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_WEBP, "WebP"},
+    {"RIFF....WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_WEBP, "WebP"},
     {"II*\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
     {"MM\0*", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
     {"II+\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"}, /* BigTIFF */
@@ -33,6 +33,7 @@ static const struct signature {
     {"BM", 2, KILN_PICTURE_BMP, KILN_DECODE_PICTURE, "BMP"},
     {"GIF8", 4, KILN_PICTURE_GIF, KILN_DECODE_PICTURE, "GIF"},
     {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_EXR, "EXR"},
+    {"#?", 2, KILN_PICTURE_HDR, KILN_DECODE_EXR, "HDR"},
 };
 
 /* ---- format ---------------------------------------------------------------------------------- */
@@ -48,7 +49,7 @@ static const struct signature *find_signature(const struct head *head)
         const struct signature *s = &signatures[i];
         bool same = head->size >= s->length;
         for (size_t j = 0; same && j < s->length; j++)
-            same = s->bytes[j] == '?' || (unsigned char)s->bytes[j] == head->bytes[j];
+            same = s->bytes[j] == '.' || (unsigned char)s->bytes[j] == head->bytes[j];
         if (same)
             return s;
     }

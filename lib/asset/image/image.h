@@ -43,11 +43,12 @@ static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image
     return (size_t)image->width * image->height * pixel_bytes[image->type];
 }
 
-/* Decodes a PNG, JPEG, WebP, TIFF, BMP, GIF or EXR file. Floats are finite. The caller destroys the
- * image. NULL: KILN_IO when the file cannot be read; KILN_INVALID_INPUT, with what was found and
- * what is allowed, when it is no regular file, no such image, broken or truncated, or beyond the
- * limits above (which are checked before memory is taken for its pixels); KILN_OVER_LIMIT beyond
- * the loader's budget; KILN_DEVICE_FAILED when memory is short or the decoder is not installed. */
+/* Decodes a PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR file. Floats are finite. The caller
+ * destroys the image. NULL: KILN_IO when the file cannot be read; KILN_INVALID_INPUT, with what was
+ * found and what is allowed, when it is no regular file, no such image, broken or truncated, or
+ * beyond the limits above (which are checked before memory is taken for its pixels);
+ * KILN_OVER_LIMIT beyond the loader's budget; KILN_DEVICE_FAILED when memory is short or the
+ * decoder is not installed. */
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error);
 

@@ -16,7 +16,7 @@
     X(WEBP, "webp")       /* by libwebp, also the frames of animations */                          \
     X(PROFILE, "profile") /* any of these whose colour profile has tables, with lcms2 */           \
     X(PICTURE, "picture") /* BMP and GIF, by FFmpeg */                                             \
-    X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
+    X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR; HDR */                            \
     X(OPENEXR, "openexr") /* the EXR files that need OpenEXR's C++ */                              \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
@@ -42,6 +42,7 @@ enum kiln_picture_format {
     KILN_PICTURE_BMP,
     KILN_PICTURE_GIF,
     KILN_PICTURE_EXR,
+    KILN_PICTURE_HDR,
 };
 
 enum kiln_mesh_format { KILN_MESH_OBJ, KILN_MESH_GLTF, KILN_MESH_GLB };
