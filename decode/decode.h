@@ -90,9 +90,7 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
 /* Decode a whole file, or return NULL with the fault. The caller destroys the image. */
 struct kiln_asset_image *decode_png(struct decode_picture *picture);
 struct kiln_asset_image *decode_jpeg(struct decode_picture *picture);
-struct kiln_asset_image *decode_webp(struct decode_picture *picture);
 struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
-struct kiln_asset_image *decode_gif(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
 struct kiln_asset_image *decode_hdr(struct decode_picture *picture);
@@ -100,9 +98,15 @@ struct kiln_asset_image *decode_hdr(struct decode_picture *picture);
 /* Takes an image, which it owns from then on. Returns false if no more are wanted. */
 typedef bool decode_take(void *user, struct kiln_asset_image *image);
 
-/* Decode the frames of an animation, or the one frame of a still picture, one by one. */
-bool decode_webp_frames(struct decode_picture *picture, decode_take *take, void *user);
-bool decode_gif_frames(struct decode_picture *picture, decode_take *take, void *user);
+/* Decodes the frames of an animation, or the one frame of a still picture, one by one. */
+typedef bool decode_frames(struct decode_picture *picture, decode_take *take, void *user);
+decode_frames decode_webp_frames, decode_gif_frames;
+
+/* Decodes a file by the reader of its format; of several frames, the first. */
+struct kiln_asset_image *decode_file(struct decode_picture *picture);
+
+/* Returns the function that decodes all frames of a format, or NULL where a file has one. */
+decode_frames *decode_frames_of(enum kiln_picture_format format);
 
 /* Open the libraries of pictures, before the process is confined. */
 bool decode_jpeg_begin(struct kiln_error *error);

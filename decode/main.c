@@ -147,28 +147,6 @@ static void send_image(const struct kiln_asset_image *image, uint32_t pages)
     send_bytes(image->pixels, kiln_asset_image_bytes(image));
 }
 
-static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
-                                            struct decode_picture *picture)
-{
-    if (picture->format == KILN_PICTURE_HDR)
-        return decode_hdr(picture);
-    if (kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR)
-        return decode_exr(picture);
-    if (kind == KILN_DECODE_PICTURE)
-        return picture->format == KILN_PICTURE_GIF ? decode_gif(picture)
-                                                   : decode_by_ffmpeg(picture);
-    switch (picture->format) {
-    case KILN_PICTURE_JPEG:
-        return decode_jpeg(picture);
-    case KILN_PICTURE_TIFF:
-        return decode_tiff(picture);
-    case KILN_PICTURE_WEBP:
-        return decode_webp(picture);
-    default:
-        return decode_png(picture);
-    }
-}
-
 /* Sends a frame of an animation, and waits for no answer: the socket holds this process back. */
 static bool send_frame(void *user, struct kiln_asset_image *image)
 {
@@ -179,20 +157,16 @@ static bool send_frame(void *user, struct kiln_asset_image *image)
 }
 
 /* Sends the frames of an animation as those of a video are sent. */
-static void serve_frames(struct decode_picture *picture)
+static void serve_frames(decode_frames *frames, struct decode_picture *picture)
 {
     send_text(KILN_DECODE_READY, KILN_VERSION);
-    const bool ok = picture->format == KILN_PICTURE_GIF
-                        ? decode_gif_frames(picture, send_frame, NULL)
-                        : decode_webp_frames(picture, send_frame, NULL);
-    if (ok)
+    if (frames(picture, send_frame, NULL))
         send_text(KILN_DECODE_END, "");
     else
         send_failure(picture->error, picture);
 }
 
-static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,
-                          int file)
+static void serve_picture(const struct kiln_decode_request *request, int file)
 {
     struct kiln_error error = {0};
     struct decode_picture picture = {.format = (enum kiln_picture_format)request->format,
@@ -206,14 +180,14 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
     struct kiln_asset_image *image = NULL;
     picture.bytes = bytes;
-    const bool has_frames = kind == KILN_DECODE_WEBP || kind == KILN_DECODE_PICTURE;
-    if (bytes && request->frames && has_frames) {
-        serve_frames(&picture);
+    decode_frames *frames = request->frames ? decode_frames_of(picture.format) : NULL;
+    if (bytes && frames) {
+        serve_frames(frames, &picture);
         free(bytes);
         return;
     }
     if (bytes)
-        image = decode_file(kind, &picture);
+        image = decode_file(&picture);
     free(bytes);
     if (image)
         send_image(image, picture.pages);
@@ -375,7 +349,7 @@ int main(int argc, char **argv)
         else if (kind == KILN_DECODE_MESH)
             serve_mesh(&request, file);
         else
-            serve_picture(kind, &request, file);
+            serve_picture(&request, file);
         close(file);
     }
 }

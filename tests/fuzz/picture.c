@@ -38,23 +38,14 @@ static struct kiln_asset_image *drop(struct kiln_asset_image *image)
     return NULL;
 }
 
+/* Decodes all frames of a file and returns the last, or its one picture. */
 static struct kiln_asset_image *decode(struct decode_picture *picture)
 {
     struct kiln_asset_image *last = NULL;
-    switch (picture->format) {
-    case KILN_PICTURE_JPEG:
-        return decode_jpeg(picture);
-    case KILN_PICTURE_TIFF:
-        return decode_tiff(picture);
-    case KILN_PICTURE_HDR:
-        return decode_hdr(picture);
-    case KILN_PICTURE_WEBP:
-        return decode_webp_frames(picture, keep_last, &last) ? last : drop(last);
-    case KILN_PICTURE_GIF:
-        return decode_gif_frames(picture, keep_last, &last) ? last : drop(last);
-    default:
-        return decode_by_ffmpeg(picture);
-    }
+    decode_frames *frames = decode_frames_of(picture->format);
+    if (!frames)
+        return decode_file(picture);
+    return frames(picture, keep_last, &last) ? last : drop(last);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
