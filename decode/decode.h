@@ -38,6 +38,8 @@ struct decode_picture {
     bool needs_other;
     uint32_t page;  /* which page is wanted; 0: the first */
     uint32_t pages; /* of the file; 1, unless the reader sets it */
+    /* what is wrong with the file although it was read (decode_warn); "": nothing is */
+    char warning[256];
     struct kiln_error *error;
 };
 
@@ -58,8 +60,11 @@ bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
 /* Sets the channels of a picture of 8 bits by its pixels: 4 if one is not opaque, else 3. */
 void decode_find_alpha(struct kiln_asset_image *image);
 
-/* Returns the orientation in Exif data, which begin like a TIFF file; 1 if they have none. */
-uint32_t decode_exif_orientation(const uint8_t *bytes, size_t size);
+#define DECODE_BROKEN_EXIF "its Exif data are broken and are ignored"
+
+/* Returns the orientation in Exif data, which begin like a TIFF file; 1 if they have none. Broken
+ * data are ignored, with a warning. */
+uint32_t decode_exif_orientation(struct decode_picture *picture, const uint8_t *bytes, size_t size);
 
 /* Turns a picture upright. False: memory is short. */
 bool decode_turn(struct kiln_asset_image *image, uint32_t orientation);
@@ -101,6 +106,10 @@ typedef bool decode_take(void *user, struct kiln_asset_image *image);
 /* Decodes the frames of an animation, or the one frame of a still picture, one by one. */
 typedef bool decode_frames(struct decode_picture *picture, decode_take *take, void *user);
 decode_frames decode_webp_frames, decode_gif_frames;
+
+/* Notes what is wrong with a file that is read all the same, behind what was noted before. */
+void decode_warn(struct decode_picture *picture, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Decodes a file by the reader of its format; of several frames, the first. */
 struct kiln_asset_image *decode_file(struct decode_picture *picture);

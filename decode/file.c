@@ -1,6 +1,21 @@
 /* This file chooses the reader of a file by its format: that of one picture, and that of all frames
- * of an animation. */
+ * of an animation. It keeps what readers find wrong. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
 #include "decode.h"
+
+void decode_warn(struct decode_picture *picture, const char *format, ...)
+{
+    const size_t length = strlen(picture->warning), room = sizeof picture->warning - length;
+    const int divided = snprintf(picture->warning + length, room, "%s", length > 0 ? "; " : "");
+    va_list args;
+    va_start(args, format);
+    if ((size_t)divided < room)
+        vsnprintf(picture->warning + length + divided, room - (size_t)divided, format, args);
+    va_end(args);
+}
 
 static bool take_first(void *user, struct kiln_asset_image *image)
 {

@@ -133,16 +133,17 @@ static unsigned char *read_file(int file, uint64_t most, size_t *size, struct ki
     return bytes;
 }
 
-static void send_image(const struct kiln_asset_image *image, uint32_t pages)
+static void send_image(const struct kiln_asset_image *image, uint32_t pages, const char *warning)
 {
-    const struct kiln_decode_answer answer = {.what = KILN_DECODE_PIXELS,
-                                              .width = image->width,
-                                              .height = image->height,
-                                              .channels = image->channels,
-                                              .type = image->type,
-                                              .srgb = image->srgb,
-                                              .premultiplied = image->premultiplied,
-                                              .pages = pages};
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_PIXELS,
+                                        .width = image->width,
+                                        .height = image->height,
+                                        .channels = image->channels,
+                                        .type = image->type,
+                                        .srgb = image->srgb,
+                                        .premultiplied = image->premultiplied,
+                                        .pages = pages};
+    snprintf(answer.text, sizeof answer.text, "%s", warning);
     send_answer(&answer);
     send_bytes(image->pixels, kiln_asset_image_bytes(image));
 }
@@ -151,7 +152,7 @@ static void send_image(const struct kiln_asset_image *image, uint32_t pages)
 static bool send_frame(void *user, struct kiln_asset_image *image)
 {
     (void)user;
-    send_image(image, 1);
+    send_image(image, 1, "");
     kiln_asset_image_destroy(&image);
     return true;
 }
@@ -190,7 +191,7 @@ static void serve_picture(const struct kiln_decode_request *request, int file)
         image = decode_file(&picture);
     free(bytes);
     if (image)
-        send_image(image, picture.pages);
+        send_image(image, picture.pages, picture.warning);
     else if (picture.needs_other)
         send_text(KILN_DECODE_NEEDS_OTHER, "");
     else
@@ -209,7 +210,7 @@ static void serve_video(int file)
     do {
         ok = ok && decode_video_read(video, &image, &error);
         if (image)
-            send_image(image, 1);
+            send_image(image, 1, "");
         else if (ok)
             send_text(KILN_DECODE_END, "");
         const bool more = image != NULL;

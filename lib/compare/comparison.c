@@ -376,6 +376,8 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
         comparison->footage[i] = kiln_footage_open(paths[i], params->layer, error);
         if (!comparison->footage[i])
             return false;
+        if (i == 0 || strcmp(paths[0], paths[1]) != 0)
+            kiln_footage_set_log(comparison->footage[i], &params->log);
     }
     comparison->result.sequence = kiln_footage_kind(comparison->footage[0]) != KILN_FOOTAGE_STILL;
     comparison->result.column_count = comparison->set.count;

@@ -274,6 +274,11 @@ void kiln_footage_close(struct kiln_footage **footage)
     kiln_arena_destroy(&arena);
 }
 
+void kiln_footage_set_log(struct kiln_footage *footage, const struct kiln_log *log)
+{
+    kiln_loader_set_warn(footage->loader, (struct kiln_loader_warn){kiln_loader_log, (void *)log});
+}
+
 enum kiln_footage_kind kiln_footage_kind(const struct kiln_footage *footage)
 {
     return footage->kind;

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "asset/image/animated.h"
 #include "asset/image/received.h"
 #include "base/error.h"
 #include "base/file_in.h"
@@ -97,8 +98,11 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 struct wanted {
     const char *layer; /* NULL: the picture, whose values are finite */
     bool raw;          /* the numbers are data, not colours */
+    bool is_page;      /* page `page` is wanted; else the first, with a warning if there are more */
     uint32_t page;
     bool sky; /* the picture shows all directions */
+    /* the picture is a sheet of cells: a PNG file is one also where it is an animation */
+    bool sheet;
 };
 
 /* Returns the kind of process that decodes what one of a kind cannot. */
@@ -132,6 +136,22 @@ static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_de
     return image;
 }
 
+/* Warns of what is wrong with a file that was read, and of frames and pages that are not taken. A
+ * process that a file has taken over may have made up the text and the number of pages. */
+static void warn(const struct kiln_received *received, const struct kiln_asset_image *image,
+                 enum kiln_picture_format format, int file, const struct wanted *wanted)
+{
+    const bool is_sheet = format == KILN_PICTURE_PNG && (wanted->sheet || wanted->raw);
+    if (*received->warning)
+        kiln_loader_warn(received->loader, received->name, "%s", received->warning);
+    if (image->pages > 1 && !wanted->is_page)
+        kiln_loader_warn(received->loader, received->name, "it has %u pages; the first is taken",
+                         image->pages);
+    else if (!is_sheet && kiln_file_is_animated(file))
+        kiln_loader_warn(received->loader, received->name,
+                         "it is an animation; the first frame is taken");
+}
+
 /* Decodes the picture in an open file. name: the file's name, for messages. */
 static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
                                        const struct wanted *wanted, struct kiln_error *error)
@@ -163,6 +183,8 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
     struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_other, error);
     if (needs_other)
         image = ask(&received, other_kind(kind), &request, file, &needs_other, error);
+    if (image)
+        warn(&received, image, request.format, file, wanted);
     return image;
 }
 
@@ -207,6 +229,12 @@ struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, c
     return load(loader, path, &(struct wanted){.sky = true}, error);
 }
 
+struct kiln_asset_image *kiln_asset_image_load_sheet(struct kiln_loader *loader, const char *path,
+                                                     struct kiln_error *error)
+{
+    return load(loader, path, &(struct wanted){.sheet = true}, error);
+}
+
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
                                                      const char *layer, struct kiln_error *error)
 {
@@ -216,7 +244,7 @@ struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader,
 struct kiln_asset_image *kiln_asset_image_load_page(struct kiln_loader *loader, const char *path,
                                                     uint32_t page, struct kiln_error *error)
 {
-    return load(loader, path, &(struct wanted){.page = page}, error);
+    return load(loader, path, &(struct wanted){.is_page = true, .page = page}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
@@ -240,18 +268,13 @@ void kiln_asset_image_destroy(struct kiln_asset_image **image)
     *image = NULL;
 }
 
-bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
-{
-    uint32_t size[2];
-    return kiln_asset_image_size(loader, path, size, error);
-}
-
-bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
-                           struct kiln_error *error)
+/* Gives the size of a picture, which is decoded if the loader does not know it. */
+static bool find_size(struct kiln_loader *loader, const char *path, const struct wanted *wanted,
+                      uint32_t size[2], struct kiln_error *error)
 {
     if (kiln_loader_knows_size(loader, path, size))
         return true;
-    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
+    struct kiln_asset_image *image = load(loader, path, wanted, error);
     if (!image)
         return false;
     size[0] = image->width;
@@ -259,4 +282,22 @@ bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_
     kiln_loader_remember_size(loader, path, size);
     kiln_asset_image_destroy(&image);
     return true;
+}
+
+bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
+{
+    uint32_t size[2];
+    return find_size(loader, path, &(struct wanted){.layer = NULL}, size, error);
+}
+
+bool kiln_asset_sheet_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
+{
+    uint32_t size[2];
+    return kiln_asset_sheet_size(loader, path, size, error);
+}
+
+bool kiln_asset_sheet_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
+                           struct kiln_error *error)
+{
+    return find_size(loader, path, &(struct wanted){.sheet = true}, size, error);
 }

@@ -62,6 +62,11 @@ struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, 
 struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, const char *path,
                                                    struct kiln_error *error);
 
+/* Decodes a sheet of cells. A PNG file is a sheet also where it is an animation, without a warning
+ * of its frames. */
+struct kiln_asset_image *kiln_asset_image_load_sheet(struct kiln_loader *loader, const char *path,
+                                                     struct kiln_error *error);
+
 /* Decodes one layer of a file. EXR files have several layers, of which "beauty" is the picture;
  * other formats have only "beauty". KILN_INVALID_INPUT also when there is no such layer. Floats are
  * not made finite. */
@@ -79,10 +84,13 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
 
-/* Both return whether kiln_asset_image_load would succeed; kiln_asset_image_size also gives width
- * and height. They decode the whole image, unless the loader knows its size from before. */
+/* kiln_asset_image_check returns whether kiln_asset_image_load would succeed,
+ * kiln_asset_sheet_check whether kiln_asset_image_load_sheet would; kiln_asset_sheet_size also
+ * gives width and height. They decode the whole image, unless the loader knows its size from
+ * before. */
 bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
-bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
+bool kiln_asset_sheet_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
+bool kiln_asset_sheet_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
                            struct kiln_error *error);
 
 #endif

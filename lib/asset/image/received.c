@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/budget.h"
 #include "base/error.h"
@@ -72,6 +73,7 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
     received->needs_other = answered && answer.what == KILN_DECODE_NEEDS_OTHER;
     if (!answered || answer.what != KILN_DECODE_PIXELS)
         return NULL;
+    memcpy(received->warning, answer.text, sizeof received->warning);
     struct kiln_asset_image *image = calloc(1, sizeof *image);
     bool ok = image || kiln_error_no_memory(reason, "a picture");
     ok = ok && (is_sound(&answer) || kiln_error_set(reason, KILN_INVALID_INPUT,

@@ -13,6 +13,7 @@ struct kiln_received {
     uint64_t counted;
     uint64_t refused; /* result: pixels of a picture that the budget has no room for */
     bool needs_other; /* result: the answer was KILN_DECODE_NEEDS_OTHER */
+    char warning[KILN_MESSAGE_SIZE]; /* result: what is wrong with the picture's file, or "" */
 };
 
 /* Returns how many pixels the budget of a scene has left, at most the limit of one image. */

@@ -73,7 +73,8 @@ enum kiln_decode_what {
      * most_pixels, the code is KILN_OVER_LIMIT, and width and height are set. */
     KILN_DECODE_FAILED,
 
-    /* Describes a picture or the next frame of a video. Its pixels follow. */
+    /* Describes a picture or the next frame of a video. Its pixels follow. The text says what is
+     * wrong with a picture's file that was read all the same, or is empty. */
     KILN_DECODE_PIXELS,
 
     /* A video has no more frames. */
