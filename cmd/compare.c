@@ -123,6 +123,7 @@ static bool wants_stop(void *user)
 static struct kiln_compare_params read_params(const struct arguments *arguments)
 {
     struct kiln_compare_params params = kiln_compare_defaults();
+    params.log = report_log();
     params.reference = arguments->operands[0];
     params.test = arguments->operands[1];
     const struct option_use *diff = arguments_last(arguments, "diff");

@@ -29,12 +29,13 @@ static const struct option options[] = {
     {.name = "tonemap",
      .kind = OPTION_CHOICE,
      .placeholder = "none|agx|aces",
-     .help = "Tone mapping of EXR images, like post.tonemap of a scene. EXR images need it; other "
-             "images do not take it."},
+     .help =
+         "Tone mapping of EXR and HDR images, like post.tonemap of a scene. They need it; other "
+         "images do not take it."},
     {.name = "exposure",
      .kind = OPTION_NUMBER,
      .placeholder = "STOPS",
-     .help = "Exposure in stops of EXR images before tone mapping.",
+     .help = "Exposure in stops of EXR and HDR images before tone mapping.",
      .fallback = "0",
      .min = -20,
      .max = 20},
@@ -133,7 +134,7 @@ const struct command encode_command = {
         "FRAMES is a numbered pattern like --output of 'kiln render', or a folder, whose images "
         "are taken in the order of their names. PNG images by kiln, of the depth that the format "
         "takes, give the bytes of a clip that 'kiln render' writes at once with the same "
-        "--quality. EXR images are tone-mapped with --tonemap.",
+        "--quality. EXR and HDR images are tone-mapped with --tonemap.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -34,11 +34,13 @@ struct decode_picture {
     bool raw;               /* the numbers are data: they are neither turned nor converted */
     bool layers;            /* of an EXR: layers are wanted as they are compared */
     uint32_t width, height; /* set when the size is known */
-    /* set: only a process of kind KILN_DECODE_PROFILE can show it; of an EXR, one of kind
-     * KILN_DECODE_OPENEXR */
-    bool needs_profile;
+    /* set: only a process of another kind can show it: one of kind KILN_DECODE_OPENEXR an EXR, one
+     * of kind KILN_DECODE_PROFILE any other file */
+    bool needs_other;
     uint32_t page;  /* which page is wanted; 0: the first */
     uint32_t pages; /* of the file; 1, unless the reader sets it */
+    /* what is wrong with the file although it was read (decode_warn); "": nothing is */
+    char warning[256];
     struct kiln_error *error;
 };
 
@@ -59,8 +61,11 @@ bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
 /* Sets the channels of a picture of 8 bits by its pixels: 4 if one is not opaque, else 3. */
 void decode_find_alpha(struct kiln_asset_image *image);
 
-/* Returns the orientation in Exif data, which begin like a TIFF file; 1 if they have none. */
-uint32_t decode_exif_orientation(const uint8_t *bytes, size_t size);
+#define DECODE_BROKEN_EXIF "its Exif data are broken and are ignored"
+
+/* Returns the orientation in Exif data, which begin like a TIFF file; 1 if they have none. Broken
+ * data are ignored, with a warning. */
+uint32_t decode_exif_orientation(struct decode_picture *picture, const uint8_t *bytes, size_t size);
 
 /* Turns a picture upright. False: memory is short. */
 bool decode_turn(struct kiln_asset_image *image, uint32_t orientation);
@@ -91,11 +96,10 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
 /* Decode a whole file, or return NULL with the fault. The caller destroys the image. */
 struct kiln_asset_image *decode_png(struct decode_picture *picture);
 struct kiln_asset_image *decode_jpeg(struct decode_picture *picture);
-struct kiln_asset_image *decode_webp(struct decode_picture *picture);
 struct kiln_asset_image *decode_tiff(struct decode_picture *picture);
-struct kiln_asset_image *decode_gif(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);
+struct kiln_asset_image *decode_hdr(struct decode_picture *picture);
 
 /* Takes a layer, whose image it owns from then on. data: the layer holds no light. */
 typedef void decode_take_layer(void *user, const char *name, bool data,
@@ -108,9 +112,19 @@ bool decode_exr_layers(struct decode_picture *picture, decode_take_layer *take, 
 /* Takes an image, which it owns from then on. Returns false if no more are wanted. */
 typedef bool decode_take(void *user, struct kiln_asset_image *image);
 
-/* Decode the frames of an animation, or the one frame of a still picture, one by one. */
-bool decode_webp_frames(struct decode_picture *picture, decode_take *take, void *user);
-bool decode_gif_frames(struct decode_picture *picture, decode_take *take, void *user);
+/* Decodes the frames of an animation, or the one frame of a still picture, one by one. */
+typedef bool decode_frames(struct decode_picture *picture, decode_take *take, void *user);
+decode_frames decode_webp_frames, decode_gif_frames;
+
+/* Notes what is wrong with a file that is read all the same, behind what was noted before. */
+void decode_warn(struct decode_picture *picture, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Decodes a file by the reader of its format; of several frames, the first. */
+struct kiln_asset_image *decode_file(struct decode_picture *picture);
+
+/* Returns the function that decodes all frames of a format, or NULL where a file has one. */
+decode_frames *decode_frames_of(enum kiln_picture_format format);
 
 /* Open the libraries of pictures, before the process is confined. */
 bool decode_jpeg_begin(struct kiln_error *error);

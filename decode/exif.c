@@ -29,26 +29,39 @@ static uint32_t number32(const struct exif *exif, size_t at)
     return exif->big ? first << 16 | second : second << 16 | first;
 }
 
-uint32_t decode_exif_orientation(const uint8_t *bytes, size_t size)
+/* Finds the orientation. False: the data are broken. */
+static bool find_orientation(struct exif *exif, uint32_t *orientation)
 {
-    struct exif exif = {.bytes = bytes, .size = size};
-    if (size < 14 || (memcmp(bytes, "II*\0", 4) != 0 && memcmp(bytes, "MM\0*", 4) != 0))
-        return 1;
-    exif.big = bytes[0] == 'M';
-    const size_t first = number32(&exif, 4);
+    const size_t size = exif->size;
+    *orientation = 1;
+    if (size < 14 || (memcmp(exif->bytes, "II*\0", 4) != 0 && memcmp(exif->bytes, "MM\0*", 4) != 0))
+        return false;
+    exif->big = exif->bytes[0] == 'M';
+    const size_t first = number32(exif, 4);
     if (first > size - 2)
-        return 1;
-    const uint32_t count = number16(&exif, first);
+        return false;
+    const uint32_t count = number16(exif, first);
     for (uint32_t i = 0; i < count; i++) {
         const size_t at = first + 2 + (size_t)ENTRY * i;
         if (at > size - ENTRY)
-            return 1;
-        if (number16(&exif, at) == ORIENTATION && number16(&exif, at + 2) == SHORT) {
-            const uint32_t found = number16(&exif, at + 8);
-            return found >= 1 && found <= 8 ? found : 1;
+            return false;
+        if (number16(exif, at) == ORIENTATION && number16(exif, at + 2) == SHORT) {
+            const uint32_t found = number16(exif, at + 8);
+            const bool known = found >= 1 && found <= 8;
+            *orientation = known ? found : 1;
+            return known;
         }
     }
-    return 1;
+    return true;
+}
+
+uint32_t decode_exif_orientation(struct decode_picture *picture, const uint8_t *bytes, size_t size)
+{
+    struct exif exif = {.bytes = bytes, .size = size};
+    uint32_t orientation;
+    if (!find_orientation(&exif, &orientation))
+        decode_warn(picture, DECODE_BROKEN_EXIF);
+    return orientation;
 }
 
 bool decode_turn(struct kiln_asset_image *image, uint32_t orientation)

@@ -189,8 +189,8 @@ static bool prepare_layers(struct exr_reading *layers, size_t count)
             return false;
         more = more || layers[i].more;
     }
-    layers->picture->needs_profile = more && !decode_exr_more_is_ready();
-    return !layers->picture->needs_profile ||
+    layers->picture->needs_other = more && !decode_exr_more_is_ready();
+    return !layers->picture->needs_other ||
            kiln_error_set(layers->picture->error, KILN_INVALID_INPUT,
                           "the EXR image needs OpenEXR's C++");
 }

@@ -1,6 +1,5 @@
 /* This file makes a picture of the numbers of a layer of an OpenEXR file: that of the display
  * window, in light of sRGB's primaries. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,19 +111,6 @@ static void fill_components(const struct exr_reading *reading)
         make_opaque(reading->image);
 }
 
-/* Returns whether primaries are Rec. 709 up to the rounding of writers. */
-static bool is_rec709(const struct kiln_primaries *primaries)
-{
-    static const double most = 1e-4;
-    bool near = true;
-    for (int i = 0; i < 2; i++)
-        near = near && fabs(primaries->red[i] - kiln_rec709.red[i]) < most &&
-               fabs(primaries->green[i] - kiln_rec709.green[i]) < most &&
-               fabs(primaries->blue[i] - kiln_rec709.blue[i]) < most &&
-               fabs(primaries->white[i] - kiln_rec709.white[i]) < most;
-    return near;
-}
-
 /* Finds the primaries of the part. */
 static bool find_primaries(const struct exr_reading *reading, struct kiln_primaries *primaries)
 {
@@ -160,7 +146,7 @@ static bool show_colors(struct exr_reading *reading)
                               "the chromaticities of the EXR image are no triangle around white");
     if (chroma && !decode_exr_chroma(reading, weights))
         return false;
-    if (reading->layer.is_color && !reading->picture->raw && !is_rec709(&primaries))
+    if (reading->layer.is_color && !reading->picture->raw && !kiln_primaries_are_rec709(&primaries))
         kiln_light_convert(to_srgb, reading->image->pixels, pixels);
     return true;
 }

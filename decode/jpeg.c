@@ -182,7 +182,7 @@ static uint32_t find_orientation(const struct reading *reading)
          marker = marker->next) {
         if (marker->marker == JPEG_APP0 + 1 && marker->data_length > sizeof name &&
             memcmp(marker->data, name, sizeof name) == 0)
-            return decode_exif_orientation(marker->data + sizeof name,
+            return decode_exif_orientation(reading->picture, marker->data + sizeof name,
                                            marker->data_length - sizeof name);
     }
     return 1;

@@ -147,9 +147,11 @@ static void send_pixels(struct kiln_decode_answer *answer, const struct kiln_ass
     send_bytes(image->pixels, kiln_asset_image_bytes(image));
 }
 
-static void send_image(const struct kiln_asset_image *image, uint32_t pages)
+static void send_image(const struct kiln_asset_image *image, uint32_t pages, const char *warning)
 {
-    send_pixels(&(struct kiln_decode_answer){.pages = pages}, image);
+    struct kiln_decode_answer answer = {.pages = pages};
+    snprintf(answer.text, sizeof answer.text, "%s", warning);
+    send_pixels(&answer, image);
 }
 
 static void send_layer(void *user, const char *name, bool data, struct kiln_asset_image *image)
@@ -163,49 +165,26 @@ static void send_layer(void *user, const char *name, bool data, struct kiln_asse
 
 static void send_picture_failure(const struct decode_picture *picture)
 {
-    if (picture->needs_profile)
-        send_text(KILN_DECODE_NEEDS_PROFILE, "");
+    if (picture->needs_other)
+        send_text(KILN_DECODE_NEEDS_OTHER, "");
     else
         send_failure(picture->error, picture);
-}
-
-static struct kiln_asset_image *decode_file(enum kiln_decode_kind kind,
-                                            struct decode_picture *picture)
-{
-    if (kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR)
-        return decode_exr(picture);
-    if (kind == KILN_DECODE_PICTURE)
-        return picture->format == KILN_PICTURE_GIF ? decode_gif(picture)
-                                                   : decode_by_ffmpeg(picture);
-    switch (picture->format) {
-    case KILN_PICTURE_JPEG:
-        return decode_jpeg(picture);
-    case KILN_PICTURE_TIFF:
-        return decode_tiff(picture);
-    case KILN_PICTURE_WEBP:
-        return decode_webp(picture);
-    default:
-        return decode_png(picture);
-    }
 }
 
 /* Sends a frame of an animation, and waits for no answer: the socket holds this process back. */
 static bool send_frame(void *user, struct kiln_asset_image *image)
 {
     (void)user;
-    send_image(image, 1);
+    send_image(image, 1, "");
     kiln_asset_image_destroy(&image);
     return true;
 }
 
 /* Sends the frames of an animation as those of a video are sent. */
-static void serve_frames(struct decode_picture *picture)
+static void serve_frames(decode_frames *frames, struct decode_picture *picture)
 {
     send_text(KILN_DECODE_READY, KILN_VERSION);
-    const bool ok = picture->format == KILN_PICTURE_GIF
-                        ? decode_gif_frames(picture, send_frame, NULL)
-                        : decode_webp_frames(picture, send_frame, NULL);
-    if (ok)
+    if (frames(picture, send_frame, NULL))
         send_text(KILN_DECODE_END, "");
     else
         send_failure(picture->error, picture);
@@ -220,18 +199,17 @@ static void serve_layers(struct decode_picture *picture)
         send_picture_failure(picture);
 }
 
-static void serve_one(enum kiln_decode_kind kind, struct decode_picture *picture)
+static void serve_one(struct decode_picture *picture)
 {
-    struct kiln_asset_image *image = decode_file(kind, picture);
+    struct kiln_asset_image *image = decode_file(picture);
     if (image)
-        send_image(image, picture->pages);
+        send_image(image, picture->pages, picture->warning);
     else
         send_picture_failure(picture);
     kiln_asset_image_destroy(&image);
 }
 
-static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_request *request,
-                          int file)
+static void serve_picture(const struct kiln_decode_request *request, int file)
 {
     struct kiln_error error = {0};
     struct decode_picture picture = {.format = (enum kiln_picture_format)request->format,
@@ -244,17 +222,16 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
                                      .pages = 1,
                                      .error = &error};
     unsigned char *bytes = read_file(file, request->most_bytes, &picture.size, &error);
-    const bool has_frames = kind == KILN_DECODE_WEBP || kind == KILN_DECODE_PICTURE;
-    const bool has_layers = kind == KILN_DECODE_EXR || kind == KILN_DECODE_OPENEXR;
+    decode_frames *frames = request->frames ? decode_frames_of(picture.format) : NULL;
     picture.bytes = bytes;
     if (!bytes)
         send_failure(&error, &picture);
-    else if (request->frames && has_frames)
-        serve_frames(&picture);
-    else if (request->layers && has_layers)
+    else if (frames)
+        serve_frames(frames, &picture);
+    else if (request->layers && picture.format == KILN_PICTURE_EXR)
         serve_layers(&picture);
     else
-        serve_one(kind, &picture);
+        serve_one(&picture);
     free(bytes);
 }
 
@@ -269,7 +246,7 @@ static void serve_video(int file)
     do {
         ok = ok && decode_video_read(video, &image, &error);
         if (image)
-            send_image(image, 1);
+            send_image(image, 1, "");
         else if (ok)
             send_text(KILN_DECODE_END, "");
         const bool more = image != NULL;
@@ -409,7 +386,7 @@ int main(int argc, char **argv)
         else if (kind == KILN_DECODE_MESH)
             serve_mesh(&request, file);
         else
-            serve_picture(kind, &request, file);
+            serve_picture(&request, file);
         close(file);
     }
 }

@@ -18,6 +18,7 @@ struct reading {
     bool lacks_memory;
     bool is_whole;  /* all rows are read */
     bool has_ended; /* more bytes were wanted than there are */
+    bool has_bad_checksum;
     char complaint[128];
 };
 
@@ -28,10 +29,20 @@ static void on_failure(png_structp png, png_const_charp message)
     png_longjmp(png, 1);
 }
 
+/* Notes the first chunk with a wrong checksum, and Exif data that libpng refuses; it leaves out
+ * both. Its other warnings are about what changes no pixel. */
 static void on_warning(png_structp png, png_const_charp message)
 {
-    (void)png;
-    (void)message;
+    struct reading *reading = png_get_error_ptr(png);
+    const int length = (int)strcspn(message, ":");
+    const bool checksum = strcmp(message + length, ": CRC error") == 0;
+    if (checksum && !reading->has_bad_checksum)
+        decode_warn(reading->picture, "its chunk %.*s has a wrong checksum and is ignored", length,
+                    message);
+    else if (strcmp(message, "eXIf: incorrect byte-order specifier") == 0 ||
+             strcmp(message, "eXIf: too short") == 0)
+        decode_warn(reading->picture, DECODE_BROKEN_EXIF);
+    reading->has_bad_checksum = reading->has_bad_checksum || checksum;
 }
 
 static png_voidp allocate(png_structp png, png_alloc_size_t size)
@@ -145,8 +156,10 @@ static void read_rows(struct reading *reading)
 static bool read_file(struct reading *reading)
 {
     if (setjmp(png_jmpbuf(reading->png))) {
-        if (reading->is_whole && reading->has_ended) /* only the end of the file is missing */
+        if (reading->is_whole && reading->has_ended) {
+            decode_warn(reading->picture, "its end is missing (chunk IEND)");
             return true;
+        }
         return reading->lacks_memory ? decode_out_of_memory(reading->picture->error)
                                      : kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
                                                       "the PNG image is broken or cut short (%s)",
@@ -261,7 +274,7 @@ static uint32_t find_orientation(const struct reading *reading)
         png_bytep exif = NULL;
         png_uint_32 size = 0;
         if (png_get_eXIf_1(reading->png, places[i], &size, &exif) != 0 && exif)
-            return decode_exif_orientation(exif, size);
+            return decode_exif_orientation(reading->picture, exif, size);
     }
     return 1;
 }

@@ -205,18 +205,3 @@ bool decode_webp_frames(struct decode_picture *picture, decode_take *take, void 
     webp.WebPDemuxDelete(file);
     return ok;
 }
-
-static bool take_first(void *user, struct kiln_asset_image *image)
-{
-    struct kiln_asset_image **first = user;
-    *first = image;
-    return false;
-}
-
-struct kiln_asset_image *decode_webp(struct decode_picture *picture)
-{
-    struct kiln_asset_image *image = NULL;
-    if (!decode_webp_frames(picture, take_first, &image))
-        kiln_asset_image_destroy(&image);
-    return image;
-}

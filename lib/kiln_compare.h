@@ -145,7 +145,8 @@ struct kiln_compare_params {
     bool (*stop)(void *user); /* called between frames; true ends with KILN_INTERRUPTED */
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
-    double data_limit; /* the largest difference of numbers of data that passes: 0 or more */
+    double data_limit;   /* the largest difference of numbers of data that passes: 0 or more */
+    struct kiln_log log; /* gets what is wrong with files that are read all the same */
 };
 #define KILN_COMPARE_DEFAULT_LIMITS "flip.mean=0.01,flip.p99=0.1,window.share=0.1"
 

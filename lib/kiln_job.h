@@ -103,8 +103,8 @@ struct kiln_encode_params {
     const char *frames;  /* images: a folder, taken in the order of names, or a numbered pattern */
     const char *output;  /* a clip */
     const char *fps;     /* "30", "29.97" or "30000/1001"; NULL: what the images say */
-    const char *tonemap; /* for EXR images, and only for them: "none", "agx" or "aces" */
-    float exposure;      /* for EXR images, in stops */
+    const char *tonemap; /* for EXR and HDR, and only for them: "none", "agx" or "aces" */
+    float exposure;      /* for EXR and HDR, in stops */
     uint32_t quality;    /* as in kiln_render_params */
     uint32_t threads;    /* 0 takes one a core */
     bool overwrite;

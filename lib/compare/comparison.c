@@ -252,6 +252,8 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
         comparison->frames.footage[i] = kiln_footage_open(paths[i], params->layer, error);
         if (!comparison->frames.footage[i])
             return false;
+        if (i == 0 || strcmp(paths[0], paths[1]) != 0)
+            kiln_footage_set_log(comparison->frames.footage[i], &params->log);
     }
     comparison->result.sequence =
         kiln_footage_kind(comparison->frames.footage[0]) != KILN_FOOTAGE_STILL;

@@ -71,7 +71,7 @@ static bool add_entry(struct kiln_footage *footage, const char *name, uint32_t n
 static bool is_picture(const char *name)
 {
     static const char *const suffixes[] = {".png",  ".jpg", ".jpeg", ".webp", ".tif",
-                                           ".tiff", ".bmp", ".gif",  ".exr"};
+                                           ".tiff", ".bmp", ".gif",  ".exr",  ".hdr"};
     const char *dot = strrchr(name, '.');
     for (size_t i = 0; dot && dot > name && i < sizeof suffixes / sizeof *suffixes; i++) {
         if (name[0] != '.' && strcasecmp(dot, suffixes[i]) == 0)
@@ -133,7 +133,7 @@ static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pa
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", footage->path,
                               pattern ? "no file fits the pattern"
                                       : "the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP, "
-                                        "GIF or EXR, by their suffix)");
+                                        "GIF, EXR or HDR, by their suffix)");
     qsort(footage->entries, footage->count, sizeof *footage->entries, compare_entries);
     for (size_t i = 0; i < footage->count && !pattern; i++)
         footage->entries[i].number = (uint32_t)i;
@@ -281,6 +281,11 @@ void kiln_footage_close(struct kiln_footage **footage)
     struct kiln_arena *arena = (*footage)->arena;
     *footage = NULL;
     kiln_arena_destroy(&arena);
+}
+
+void kiln_footage_set_log(struct kiln_footage *footage, const struct kiln_log *log)
+{
+    kiln_loader_set_warn(footage->loader, (struct kiln_loader_warn){kiln_loader_log, (void *)log});
 }
 
 enum kiln_footage_kind kiln_footage_kind(const struct kiln_footage *footage)

@@ -23,6 +23,10 @@ struct kiln_footage *kiln_footage_open(const char *path, const char *layer,
                                        struct kiln_error *error);
 void kiln_footage_close(struct kiln_footage **footage);
 
+/* Names the log that gets what is wrong with files that are read all the same; it must outlive the
+ * footage. */
+void kiln_footage_set_log(struct kiln_footage *footage, const struct kiln_log *log);
+
 enum kiln_footage_kind kiln_footage_kind(const struct kiln_footage *footage);
 const char *kiln_footage_path(const struct kiln_footage *footage);
 

@@ -30,6 +30,8 @@ struct encode {
     struct kiln_footage *footage;
     uint32_t count;     /* the number of frames found */
     const char *before; /* name of the frame that was counted last */
+    uint32_t read;      /* the number of frames read */
+    uint32_t warned;    /* the number of frames whose files were warned of before a second start */
     struct kiln_output *output;
     enum kiln_tonemap tonemap;
 
@@ -116,6 +118,8 @@ static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN
     if (!kiln_footage_peek(encode->footage, &frame) ||
         !kiln_footage_file(encode->footage, path, error))
         return NULL;
+    if (encode->read++ == encode->warned)
+        kiln_footage_set_log(encode->footage, &encode->params->log);
     struct kiln_asset_image *image = kiln_footage_take(encode->footage, error);
     struct kiln_error reason = {0};
     if (!image)
@@ -524,6 +528,8 @@ bool kiln_encode(const struct kiln_encode_params *given, struct kiln_frame_range
         finish(&encode);
         encode.count = 0;
         encode.before = NULL;
+        encode.warned = encode.read;
+        encode.read = 0;
         *error = (struct kiln_error){0};
         ok = run(&encode, kiln_clock_seconds(), error);
     }

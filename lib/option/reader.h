@@ -13,6 +13,7 @@ struct kiln_reader {
     struct kiln_arena *arena;         /* owns the texts that the target points to */
     struct kiln_arena *scratch;       /* owns trees and keys, and may be destroyed after reading */
     struct kiln_error *error;
+    const struct kiln_log *log; /* gets warnings; NULL: nobody does */
     void *target; /* the struct that the whole table fills, for types that need other parts of it */
 
     char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */

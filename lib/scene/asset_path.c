@@ -13,6 +13,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 #include "base/shown.h"
 
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
@@ -89,12 +90,36 @@ bool kiln_asset_fail(struct kiln_reader *reader, const struct kiln_node *root, c
     return fail_as(reader, error);
 }
 
+/* Places a warning of the loader in the scene. */
+struct place {
+    struct kiln_reader *reader;
+    const struct kiln_node *node;
+    const char *name; /* the file as the scene names it */
+};
+
+static void warn_at(void *user, const char *path, const char *text)
+{
+    (void)path;
+    const struct place *place = user;
+    struct kiln_reader *reader = place->reader;
+    struct kiln_error found = {0}, *kept = reader->error;
+    reader->error = &found;
+    kiln_reader_error(reader, place->node, "'%s': %s", place->name, text);
+    reader->error = kept;
+    kiln_log_write(reader->log, KILN_LOG_WARNING, "%s", found.message);
+}
+
 static bool check_contents(struct kiln_reader *reader, const struct kiln_node *node,
                            kiln_check_file *check, const char *path, const char *name)
 {
     struct kiln_error error = {0};
     const struct kiln_scene *scene = kiln_reader_scene(reader);
-    if (check(scene->loader, path, &error))
+    struct place place = {reader, node, name};
+    if (reader->log)
+        kiln_loader_set_warn(scene->loader, (struct kiln_loader_warn){warn_at, &place});
+    const bool ok = check(scene->loader, path, &error);
+    kiln_loader_set_warn(scene->loader, (struct kiln_loader_warn){.write = NULL});
+    if (ok)
         return kiln_budget_is_kept(scene->budget, reader->error);
     kiln_reader_error(reader, node, "'%s': %s", name, reason_of(&error, path));
     return fail_as(reader, &error);

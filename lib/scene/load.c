@@ -136,8 +136,12 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         kiln_error_no_memory(error, "reading a scene");
     } else {
         const struct kiln_origin origin = kiln_scene_origin(name_copy);
-        struct kiln_reader reader = {
-            .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = scene};
+        struct kiln_reader reader = {.origin = &origin,
+                                     .arena = arena,
+                                     .scratch = scratch,
+                                     .error = error,
+                                     .log = &params->log,
+                                     .target = scene};
         kiln_handle_mark(&scene->handle, KILN_HANDLE_SCENE);
         scene->arena = arena;
         scene->name = name_copy;

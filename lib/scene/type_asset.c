@@ -99,7 +99,7 @@ static bool read_motion(struct kiln_reader *reader, const struct kiln_option *op
             return true;
         }
     }
-    return kiln_read_file_asset(reader, node, kiln_asset_image_check, motion);
+    return kiln_read_file_asset(reader, node, kiln_asset_sheet_check, motion);
 }
 
 static void print_motion(struct kiln_printer *printer, const struct kiln_option *option,

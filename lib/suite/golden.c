@@ -315,10 +315,17 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error)
     return ok;
 }
 
-bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
+bool kiln_pixel_hash_warned(const char *path, const struct kiln_log *log, char hex[65],
+                            struct kiln_error *error)
 {
     static const size_t bytes[] = {[KILN_IMAGE_U8] = 1, [KILN_IMAGE_U16] = 2, [KILN_IMAGE_F32] = 4};
-    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
+    const struct kiln_loader_params anywhere = {.root = NULL};
+    struct kiln_loader *loader = kiln_loader_create(&anywhere);
+    if (!loader)
+        return kiln_error_no_memory(error, "%s", path);
+    kiln_loader_set_warn(loader, (struct kiln_loader_warn){kiln_loader_log, (void *)log});
+    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
+    kiln_loader_destroy(&loader);
     if (!image)
         return false;
     size_t size = (size_t)image->width * image->height * 4 * bytes[image->type];
@@ -330,6 +337,11 @@ bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
     kiln_hash_sha256(text, (size_t)length, hex);
     kiln_asset_image_destroy(&image);
     return true;
+}
+
+bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
+{
+    return kiln_pixel_hash_warned(path, &(struct kiln_log){.write = NULL}, hex, error);
 }
 
 /* ---- accepting ------------------------------------------------------------------------------ */

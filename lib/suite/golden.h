@@ -58,6 +58,10 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
  * it is premultiplied, and its pixels. Fails as kiln_asset_image_load does. */
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
+/* Does the same, and warns of what is wrong with a file that is read all the same. */
+bool kiln_pixel_hash_warned(const char *path, const struct kiln_log *log, char hex[65],
+                            struct kiln_error *error);
+
 /* Accepts one picture. It is copied to its place, which path receives, unless a picture with the
  * same pixels is there or the test keeps hashes alone; path is then that of expect.yaml. An
  * alternative is not copied if any golden of the frame has its pixels. The state and the hash of

@@ -1,7 +1,7 @@
-/* Fuzzes the decoding of pictures by FFmpeg, libjpeg-turbo, libtiff and libwebp: for any input the
- * decoder must return an image within the size limits or an error, and never crash. If this fails,
- * a malicious picture may take over kiln-decode, the separate process that decodes untrusted files.
- * The first two bytes of an input choose the file format. */
+/* Fuzzes the decoding of pictures by FFmpeg, libjpeg-turbo, libtiff, libwebp and kiln's own reader
+ * of HDR files: for any input the decoder must return an image within the size limits or an error,
+ * and never crash. If this fails, a malicious picture may take over kiln-decode, the separate
+ * process that decodes untrusted files. The first two bytes of an input choose the file format. */
 #include <string.h>
 
 #include "base/ffmpeg.h"
@@ -19,6 +19,8 @@ static enum kiln_picture_format format_of(const uint8_t *data, size_t size)
         return KILN_PICTURE_WEBP;
     if (size >= 2 && memcmp(data, "GI", 2) == 0)
         return KILN_PICTURE_GIF;
+    if (size >= 2 && memcmp(data, "#?", 2) == 0)
+        return KILN_PICTURE_HDR;
     return KILN_PICTURE_JPEG;
 }
 
@@ -36,21 +38,14 @@ static struct kiln_asset_image *drop(struct kiln_asset_image *image)
     return NULL;
 }
 
+/* Decodes all frames of a file and returns the last, or its one picture. */
 static struct kiln_asset_image *decode(struct decode_picture *picture)
 {
     struct kiln_asset_image *last = NULL;
-    switch (picture->format) {
-    case KILN_PICTURE_JPEG:
-        return decode_jpeg(picture);
-    case KILN_PICTURE_TIFF:
-        return decode_tiff(picture);
-    case KILN_PICTURE_WEBP:
-        return decode_webp_frames(picture, keep_last, &last) ? last : drop(last);
-    case KILN_PICTURE_GIF:
-        return decode_gif_frames(picture, keep_last, &last) ? last : drop(last);
-    default:
-        return decode_by_ffmpeg(picture);
-    }
+    decode_frames *frames = decode_frames_of(picture->format);
+    if (!frames)
+        return decode_file(picture);
+    return frames(picture, keep_last, &last) ? last : drop(last);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -346,7 +346,7 @@ static void expect_unjudged(enum kiln_code code, const char *message)
 
 static void what_cannot_be_judged_is_an_error(void **state)
 {
-#define ALLOWED "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files"
+#define ALLOWED "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files"
     (void)state;
     accept_goldens("");
     struct kiln_error error = {0};

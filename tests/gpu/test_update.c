@@ -222,7 +222,7 @@ static void update_failed_replaces_broken_goldens(void **state)
     expect_message(
         run.summary.message,
         "frame 3: golden/spark/frame_0003.png: the file is not an image: it starts with "
-        "the bytes 6e 6f 20 70; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files; "
+        "the bytes 6e 6f 20 70; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files; "
         "--update failed replaces it");
     spark_end(&run);
     assert_true(is_untouched(SPARK_GOLDEN, &first));

@@ -170,7 +170,7 @@ static void send_floats(float value)
     for (size_t i = 0; i < sizeof pixels / sizeof *pixels; i++)
         pixels[i] = value;
     send_answer((struct kiln_decode_answer){
-        .what = KILN_DECODE_PIXELS, .width = 4, .height = 4, .channels = 4, .type = 2});
+        .what = KILN_DECODE_PIXELS, .width = 4, .height = 4, .channels = 4, .type = 2, .pages = 1});
     send_bytes(pixels, sizeof pixels);
 }
 
@@ -180,7 +180,8 @@ static void send_size(uint32_t width, uint32_t height, uint32_t channels, uint32
                                             .width = width,
                                             .height = height,
                                             .channels = channels,
-                                            .type = type});
+                                            .type = type,
+                                            .pages = 1});
 }
 
 static void send_failure(int32_t code, const char *text)
@@ -221,13 +222,24 @@ static void do_attempts(void)
     send_failure(KILN_INVALID_INPUT, text);
 }
 
-/* Sends a message with escape sequences of terminals, a text direction override, a byte that is not
- * UTF-8, and formats of printf. */
+/* A text with escape sequences of terminals, a text direction override, a byte that is not UTF-8,
+ * and formats of printf. */
+static const char ESCAPES[] = {27,         ']',        '0', ';', 'x', 7,   (char)0xe2, (char)0x80,
+                               (char)0xae, (char)0xff, '%', 's', '%', 'n', 0};
+
 static void do_escapes(void)
 {
-    const char text[] = {27,         ']',        '0', ';', 'x', 7,   (char)0xe2, (char)0x80,
-                         (char)0xae, (char)0xff, '%', 's', '%', 'n', 0};
-    send_failure(KILN_INVALID_INPUT, text);
+    send_failure(KILN_INVALID_INPUT, ESCAPES);
+}
+
+/* Sends a picture with such a text as its warning. */
+static void do_warning(void)
+{
+    struct kiln_decode_answer answer = {
+        .what = KILN_DECODE_PIXELS, .width = 1, .height = 1, .channels = 3, .srgb = 1, .pages = 7};
+    memcpy(answer.text, ESCAPES, sizeof ESCAPES);
+    send_answer(answer);
+    send_bytes(CORNERS, 4);
 }
 
 /* Sends a message without a zero byte at its end. */
@@ -326,6 +338,7 @@ static const struct way {
 } ways[] = {
     {"attempts", do_attempts},
     {"escapes", do_escapes},
+    {"warning", do_warning},
     {"endless-text", do_endless_text},
     {"wants", do_wants},
     {"wants-deaf", do_wants_deaf},

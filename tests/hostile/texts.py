@@ -61,6 +61,7 @@ def decoders():
     for how in ("huge", "overflow", "largest", "nothing", "type", "channels", "nan", "infinite", "short", "crash", "what", "other",
                 "endless-text", "escapes", "no-error", "wrong-code", "over"):
         yield decoder(how, smoke=how in ("huge", "short"))
+    yield decoder("warning", "floor", codes=OK, says="warning: s.yaml:3:27: backdrop.floor.image: 'a.png': \\x1b]0;x", smoke=True)
     for how in ("silent", "busy"):
         yield decoder(how, codes=LIMIT, command=lambda: check("--timeout", "1"), seconds=4, smoke=how == "silent")
     yield decoder("version", codes=DEVICE)

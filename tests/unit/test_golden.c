@@ -239,7 +239,7 @@ static void hashes_are_of_pixels(void **state)
     assert_false(kiln_pixel_hash("bad.png", hex, &error));
     expect_error(&error, KILN_INVALID_INPUT,
                  "bad.png: the file is not an image: it starts with the bytes 89 50 4e 47; allowed "
-                 "are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files");
+                 "are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files");
 }
 
 static void copies_replace_links_not_what_they_lead_to(void **state)
@@ -367,7 +367,7 @@ static void accepted_pictures_are_found(void **state)
     assert_false(kiln_goldens_accept(arena, &fire, expect, &same, path, &error));
     expect_error(&error, KILN_INVALID_INPUT,
                  "broken.png: the file is not an image: it starts with the bytes 6e 6f 20 70; "
-                 "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files");
+                 "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files");
     expect_hashes("golden/fire/frame_0024.png", "new_01.png", true);
     kiln_arena_destroy(&arena);
 }

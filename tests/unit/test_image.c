@@ -18,7 +18,7 @@
 enum { WIDTH = 29, HEIGHT = 13 };
 
 #define NOT_FINITE "the image is cut short, or has pixels that are not finite numbers"
-#define ALLOWED    "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files"
+#define ALLOWED    "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files"
 
 static const struct source {
     const char *name; /* in messages */

@@ -179,7 +179,8 @@ static void assets_must_be_pictures(void **state)
     expect_error(
         &error, KILN_INVALID_INPUT,
         "scenes/s.yaml:2:29: systems.a.look.atlas: 'text.png': the file is not an image: it starts "
-        "with the bytes 68 65 6c 6c; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files");
+        "with the bytes 68 65 6c 6c; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR "
+        "files");
 
     unsigned char flat[sizeof bitmap];
     memcpy(flat, bitmap, sizeof flat);
@@ -214,7 +215,8 @@ static void motion_is_no_video(void **state)
     expect_refusal(
         "scenes/a.yaml", NULL,
         "scenes/a.yaml:2:44: systems.a.look.motion: 'x.mp4': the file is not an image: it "
-        "starts with the bytes 00 00 00 20; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR "
+        "starts with the bytes 00 00 00 20; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or "
+        "HDR "
         "files");
 }
 

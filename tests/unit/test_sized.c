@@ -37,7 +37,7 @@ ENDS_WITH(kiln_flipbook, green_down);
 ENDS_WITH(kiln_frame_layer, pixels);
 ENDS_WITH(kiln_render_params, written);
 ENDS_WITH(kiln_compare_mask, picture);
-ENDS_WITH(kiln_compare_params, data_limit);
+ENDS_WITH(kiln_compare_params, log);
 ENDS_WITH(kiln_bake_params, log);
 ENDS_WITH(kiln_join_params, log);
 ENDS_WITH(kiln_encode_params, log);

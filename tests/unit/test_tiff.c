@@ -49,6 +49,42 @@ static void pages_are_read_by_number(void **state)
                  FILES "rgb.png: no page 1: only TIFF images have pages");
 }
 
+/* Keeps the last warning and counts all. */
+struct warnings {
+    unsigned count;
+    char text[256];
+};
+
+static void keep_warning(void *user, const char *path, const char *text)
+{
+    struct warnings *warnings = user;
+    assert_string_equal(path, FILES "pages.tif");
+    warnings->count++;
+    snprintf(warnings->text, sizeof warnings->text, "%s", text);
+}
+
+static void pages_that_are_not_taken_are_told(void **state)
+{
+    (void)state;
+    const struct kiln_loader_params anywhere = {.root = NULL};
+    struct kiln_loader *loader = kiln_loader_create(&anywhere);
+    struct warnings warnings = {.count = 0};
+    struct kiln_error error = {0};
+    assert_non_null(loader);
+    kiln_loader_set_warn(loader, (struct kiln_loader_warn){keep_warning, &warnings});
+    struct kiln_asset_image *image =
+        kiln_asset_image_load_page(loader, FILES "pages.tif", 0, &error);
+    assert_non_null(image);
+    kiln_asset_image_destroy(&image);
+    assert_int_equal(warnings.count, 0);
+    image = kiln_asset_image_load_sky(loader, FILES "pages.tif", &error);
+    assert_non_null(image);
+    kiln_asset_image_destroy(&image);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.text, "it has 2 pages; the first is taken");
+    kiln_loader_destroy(&loader);
+}
+
 /* A smaller version is no page, and files of other formats have one. */
 static void other_images_are_no_pages(void **state)
 {
@@ -161,6 +197,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pages_are_read_by_number),
+        cmocka_unit_test(pages_that_are_not_taken_are_told),
         cmocka_unit_test(other_images_are_no_pages),
         cmocka_unit_test(data_are_not_turned),
         cmocka_unit_test(associated_light_is_that_of_straight_colours),

@@ -256,7 +256,8 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
     memset(cells, 0, floats * sizeof *cells);
     if (kiln_video_in_has_suffix(source->path))
         return load_video(source, cells, threads, error);
-    struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
+    struct kiln_asset_image *image =
+        kiln_asset_image_load_sheet(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, false, cells, threads, error);
     kiln_asset_image_destroy(&image);
     return ok;
@@ -286,7 +287,7 @@ bool kiln_cells_check_layout(const struct kiln_cells_source *source, struct kiln
         return true;
     if (kiln_video_in_has_suffix(source->path))
         return read_frames(source, NULL, NULL, error);
-    return kiln_asset_image_size(source->loader, source->path, size, error) &&
+    return kiln_asset_sheet_size(source->loader, source->path, size, error) &&
            check_division(size[0], size[1], source, error);
 }
 
@@ -294,5 +295,5 @@ bool kiln_cells_check(struct kiln_loader *loader, const char *path, struct kiln_
 {
     const struct kiln_cells_source one = {.loader = loader, .path = path, .columns = 1, .rows = 1};
     return kiln_video_in_has_suffix(path) ? read_frames(&one, NULL, NULL, error)
-                                          : kiln_asset_image_check(loader, path, error);
+                                          : kiln_asset_sheet_check(loader, path, error);
 }

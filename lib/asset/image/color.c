@@ -3,6 +3,7 @@
  * shared/exact.h, so that a picture is the same on every processor. */
 #include "asset/image/color.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -155,6 +156,24 @@ bool kiln_primaries_luminance(const struct kiln_primaries *primaries, double wei
         return false;
     memcpy(weights, own[1], sizeof own[1]);
     return true;
+}
+
+bool kiln_primaries_are_rec709(const struct kiln_primaries *primaries)
+{
+    static const double most = 1e-4;
+    bool near = true;
+    for (int i = 0; i < 2; i++)
+        near = near && fabs(primaries->red[i] - kiln_rec709.red[i]) < most &&
+               fabs(primaries->green[i] - kiln_rec709.green[i]) < most &&
+               fabs(primaries->blue[i] - kiln_rec709.blue[i]) < most &&
+               fabs(primaries->white[i] - kiln_rec709.white[i]) < most;
+    return near;
+}
+
+bool kiln_xyz_to_srgb(double to_srgb[3][3])
+{
+    double white[3], own[3][3];
+    return find_own_columns(&kiln_rec709, white, own) && invert(own, to_srgb);
 }
 
 bool kiln_columns_to_srgb(const double xyz[3][3], double to_srgb[3][3])

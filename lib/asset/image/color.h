@@ -38,6 +38,12 @@ bool kiln_primaries_to_srgb(const struct kiln_primaries *primaries, double to_sr
 /* Finds how much each primary adds to the luminance of a colour. False: as above. */
 bool kiln_primaries_luminance(const struct kiln_primaries *primaries, double weights[3]);
 
+/* Returns whether primaries are those of Rec. 709 up to the rounding of writers. */
+bool kiln_primaries_are_rec709(const struct kiln_primaries *primaries);
+
+/* Finds the light of sRGB's primaries by XYZ whose white is that of sRGB, with Y 1. */
+bool kiln_xyz_to_srgb(double to_srgb[3][3]);
+
 /* Computes the matrix of kiln_primaries_to_srgb from the columns of a profile: XYZ of red, green
  * and blue for the white D50. */
 bool kiln_columns_to_srgb(const double xyz[3][3], double to_srgb[3][3]);

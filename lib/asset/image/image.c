@@ -7,13 +7,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "asset/image/animated.h"
 #include "asset/image/received.h"
 #include "base/error.h"
 #include "base/file_in.h"
 
 enum { HEAD_SIZE = 12 }; /* bytes of the longest signature */
 
-/* Signatures of the formats; '?' stands for any byte. */
+/* Signatures of the formats; '.' stands for any byte. */
 static const struct signature {
     const char *bytes;
     size_t length;
@@ -23,7 +24,7 @@ static const struct signature {
 } signatures[] = {
     {"\x89PNG\r\n\x1a\n", 8, KILN_PICTURE_PNG, KILN_DECODE_PNG, "PNG"},
     {"\xff\xd8\xff", 3, KILN_PICTURE_JPEG, KILN_DECODE_JPEG, "JPEG"},
-    {"RIFF????WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_WEBP, "WebP"},
+    {"RIFF....WEBP", 12, KILN_PICTURE_WEBP, KILN_DECODE_WEBP, "WebP"},
     {"II*\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
     {"MM\0*", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"},
     {"II+\0", 4, KILN_PICTURE_TIFF, KILN_DECODE_TIFF, "TIFF"}, /* BigTIFF */
@@ -31,6 +32,7 @@ static const struct signature {
     {"BM", 2, KILN_PICTURE_BMP, KILN_DECODE_PICTURE, "BMP"},
     {"GIF8", 4, KILN_PICTURE_GIF, KILN_DECODE_PICTURE, "GIF"},
     {"v/1\x01", 4, KILN_PICTURE_EXR, KILN_DECODE_EXR, "EXR"},
+    {"#?", 2, KILN_PICTURE_HDR, KILN_DECODE_EXR, "HDR"},
 };
 
 /* ---- format ---------------------------------------------------------------------------------- */
@@ -46,7 +48,7 @@ static const struct signature *find_signature(const struct head *head)
         const struct signature *s = &signatures[i];
         bool same = head->size >= s->length;
         for (size_t j = 0; same && j < s->length; j++)
-            same = s->bytes[j] == '?' || (unsigned char)s->bytes[j] == head->bytes[j];
+            same = s->bytes[j] == '.' || (unsigned char)s->bytes[j] == head->bytes[j];
         if (same)
             return s;
     }
@@ -95,8 +97,11 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 struct wanted {
     const char *layer; /* NULL: the picture, whose values are finite */
     bool raw;          /* the numbers are data, not colours */
+    bool is_page;      /* page `page` is wanted; else the first, with a warning if there are more */
     uint32_t page;
     bool sky; /* the picture shows all directions */
+    /* the picture is a sheet of cells: a PNG file is one also where it is an animation */
+    bool sheet;
 };
 
 /* Returns the kind of process that decodes what one of a kind cannot. */
@@ -106,28 +111,44 @@ static enum kiln_decode_kind other_kind(enum kiln_decode_kind kind)
                                                                   : KILN_DECODE_PROFILE;
 }
 
-/* Lets a process of a kind decode an open file. *needs_profile is set if only one of the other kind
+/* Lets a process of a kind decode an open file. *needs_other is set if only one of the other kind
  * can. */
 static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_decode_kind kind,
                                     const struct kiln_decode_request *request, int file,
-                                    bool *needs_profile, struct kiln_error *error)
+                                    bool *needs_other, struct kiln_error *error)
 {
     received->helper = kiln_loader_take(received->loader, kind, error);
     if (!received->helper)
         return NULL;
     /* A process of the other kind needs no further one, unless a file has taken it over. */
-    const unsigned other = kind == other_kind(kind) ? 0 : 1u << KILN_DECODE_NEEDS_PROFILE;
+    const unsigned other = kind == other_kind(kind) ? 0 : 1u << KILN_DECODE_NEEDS_OTHER;
     const unsigned expected = 1u << KILN_DECODE_PIXELS | other;
     struct kiln_error reason = {0};
     struct kiln_asset_image *image = NULL;
-    received->needs_profile = false;
+    received->needs_other = false;
     if (kiln_helper_send(received->helper, request, sizeof *request, file, &reason))
         image = kiln_received_image(received, expected, &reason);
-    *needs_profile = received->needs_profile;
-    if (!image && !*needs_profile)
+    *needs_other = received->needs_other;
+    if (!image && !*needs_other)
         kiln_received_fail(received, &reason, error);
     kiln_loader_give_back(received->loader, &received->helper);
     return image;
+}
+
+/* Warns of what is wrong with a file that was read, and of frames and pages that are not taken. A
+ * process that a file has taken over may have made up the text and the number of pages. */
+static void warn(const struct kiln_received *received, const struct kiln_asset_image *image,
+                 enum kiln_picture_format format, int file, const struct wanted *wanted)
+{
+    const bool is_sheet = format == KILN_PICTURE_PNG && (wanted->sheet || wanted->raw);
+    if (*received->warning)
+        kiln_loader_warn(received->loader, received->name, "%s", received->warning);
+    if (image->pages > 1 && !wanted->is_page)
+        kiln_loader_warn(received->loader, received->name, "it has %u pages; the first is taken",
+                         image->pages);
+    else if (!is_sheet && kiln_file_is_animated(file))
+        kiln_loader_warn(received->loader, received->name,
+                         "it is an animation; the first frame is taken");
 }
 
 /* Decodes the picture in an open file. name: the file's name, for messages. */
@@ -157,10 +178,12 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
         return NULL;
     }
     request.most_pixels = kiln_received_most_pixels(loader);
-    bool needs_profile = false;
-    struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_profile, error);
-    if (needs_profile)
-        image = ask(&received, other_kind(kind), &request, file, &needs_profile, error);
+    bool needs_other = false;
+    struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_other, error);
+    if (needs_other)
+        image = ask(&received, other_kind(kind), &request, file, &needs_other, error);
+    if (image)
+        warn(&received, image, request.format, file, wanted);
     return image;
 }
 
@@ -206,6 +229,12 @@ struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, c
     return load(loader, path, &(struct wanted){.sky = true}, error);
 }
 
+struct kiln_asset_image *kiln_asset_image_load_sheet(struct kiln_loader *loader, const char *path,
+                                                     struct kiln_error *error)
+{
+    return load(loader, path, &(struct wanted){.sheet = true}, error);
+}
+
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
                                                      const char *layer, struct kiln_error *error)
 {
@@ -215,7 +244,7 @@ struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader,
 struct kiln_asset_image *kiln_asset_image_load_page(struct kiln_loader *loader, const char *path,
                                                     uint32_t page, struct kiln_error *error)
 {
-    return load(loader, path, &(struct wanted){.page = page}, error);
+    return load(loader, path, &(struct wanted){.is_page = true, .page = page}, error);
 }
 
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
@@ -239,18 +268,13 @@ void kiln_asset_image_destroy(struct kiln_asset_image **image)
     *image = NULL;
 }
 
-bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
-{
-    uint32_t size[2];
-    return kiln_asset_image_size(loader, path, size, error);
-}
-
-bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
-                           struct kiln_error *error)
+/* Gives the size of a picture, which is decoded if the loader does not know it. */
+static bool find_size(struct kiln_loader *loader, const char *path, const struct wanted *wanted,
+                      uint32_t size[2], struct kiln_error *error)
 {
     if (kiln_loader_knows_size(loader, path, size))
         return true;
-    struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
+    struct kiln_asset_image *image = load(loader, path, wanted, error);
     if (!image)
         return false;
     size[0] = image->width;
@@ -258,4 +282,22 @@ bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_
     kiln_loader_remember_size(loader, path, size);
     kiln_asset_image_destroy(&image);
     return true;
+}
+
+bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
+{
+    uint32_t size[2];
+    return find_size(loader, path, &(struct wanted){.layer = NULL}, size, error);
+}
+
+bool kiln_asset_sheet_check(struct kiln_loader *loader, const char *path, struct kiln_error *error)
+{
+    uint32_t size[2];
+    return kiln_asset_sheet_size(loader, path, size, error);
+}
+
+bool kiln_asset_sheet_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
+                           struct kiln_error *error)
+{
+    return find_size(loader, path, &(struct wanted){.sheet = true}, size, error);
 }

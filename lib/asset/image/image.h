@@ -7,7 +7,7 @@
 #include "asset/loader/loader.h"
 
 /* The formats of pictures, for messages. */
-#define KILN_IMAGE_FORMATS "PNG, JPEG, WebP, TIFF, BMP, GIF or EXR"
+#define KILN_IMAGE_FORMATS "PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR"
 
 enum {
     KILN_MAX_IMAGE_EDGE = 16384,      /* pixels a side */
@@ -48,11 +48,12 @@ static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image
     return (size_t)image->width * image->height * pixel_bytes[image->type];
 }
 
-/* Decodes a PNG, JPEG, WebP, TIFF, BMP, GIF or EXR file. Floats are finite. The caller destroys the
- * image. NULL: KILN_IO when the file cannot be read; KILN_INVALID_INPUT, with what was found and
- * what is allowed, when it is no regular file, no such image, broken or truncated, or beyond the
- * limits above (which are checked before memory is taken for its pixels); KILN_OVER_LIMIT beyond
- * the loader's budget; KILN_DEVICE_FAILED when memory is short or the decoder is not installed. */
+/* Decodes a PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR file. Floats are finite. The caller
+ * destroys the image. NULL: KILN_IO when the file cannot be read; KILN_INVALID_INPUT, with what was
+ * found and what is allowed, when it is no regular file, no such image, broken or truncated, or
+ * beyond the limits above (which are checked before memory is taken for its pixels);
+ * KILN_OVER_LIMIT beyond the loader's budget; KILN_DEVICE_FAILED when memory is short or the
+ * decoder is not installed. */
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error);
 
@@ -65,6 +66,11 @@ struct kiln_asset_image *kiln_asset_image_load_data(struct kiln_loader *loader, 
  * that it is a cube map is refused. */
 struct kiln_asset_image *kiln_asset_image_load_sky(struct kiln_loader *loader, const char *path,
                                                    struct kiln_error *error);
+
+/* Decodes a sheet of cells. A PNG file is a sheet also where it is an animation, without a warning
+ * of its frames. */
+struct kiln_asset_image *kiln_asset_image_load_sheet(struct kiln_loader *loader, const char *path,
+                                                     struct kiln_error *error);
 
 /* Decodes one layer of a file. EXR files have several layers, of which "beauty" is the picture;
  * other formats have only "beauty". KILN_INVALID_INPUT also when there is no such layer. Floats are
@@ -83,10 +89,13 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
 
-/* Both return whether kiln_asset_image_load would succeed; kiln_asset_image_size also gives width
- * and height. They decode the whole image, unless the loader knows its size from before. */
+/* kiln_asset_image_check returns whether kiln_asset_image_load would succeed,
+ * kiln_asset_sheet_check whether kiln_asset_image_load_sheet would; kiln_asset_sheet_size also
+ * gives width and height. They decode the whole image, unless the loader knows its size from
+ * before. */
 bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
-bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
+bool kiln_asset_sheet_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
+bool kiln_asset_sheet_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
                            struct kiln_error *error);
 
 #endif

@@ -106,7 +106,7 @@ static bool receive(struct kiln_layers_in *layers, struct kiln_asset_image **ima
     struct kiln_received *received = &layers->received;
     /* A process of the second kind needs no further one, unless a file has taken it over. */
     const bool first = layers->count == 0 && kiln_helper_kind(received->helper) == KILN_DECODE_EXR;
-    const unsigned other = first ? 1u << KILN_DECODE_NEEDS_PROFILE : 0;
+    const unsigned other = first ? 1u << KILN_DECODE_NEEDS_OTHER : 0;
     struct kiln_error reason = {0};
     kiln_helper_begin_frame(received->helper);
     *image = kiln_received_image(received, 1u << KILN_DECODE_PIXELS | 1u << KILN_DECODE_END | other,
@@ -139,7 +139,7 @@ bool kiln_layers_in_read(struct kiln_layers_in *layers, struct kiln_image_layer 
     memcpy(last, received->layer, sizeof last);
     if (!receive(layers, &layer->image, error))
         return false;
-    if (!layer->image && received->needs_profile) {
+    if (!layer->image && received->needs_other) {
         let_go(layers);
         layers->has_ended = false;
         if (!ask(layers, KILN_DECODE_OPENEXR, error) || !receive(layers, &layer->image, error))

@@ -12,8 +12,9 @@ struct kiln_received {
     bool layers;      /* pictures are layers, which may be data of whole numbers */
     /* pixels that the budget has counted already: those of the largest frame so far */
     uint64_t counted;
-    uint64_t refused;   /* result: pixels of a picture that the budget has no room for */
-    bool needs_profile; /* result: the answer was KILN_DECODE_NEEDS_PROFILE */
+    uint64_t refused; /* result: pixels of a picture that the budget has no room for */
+    bool needs_other; /* result: the answer was KILN_DECODE_NEEDS_OTHER */
+    char warning[KILN_MESSAGE_SIZE]; /* result: what is wrong with the picture's file, or "" */
     /* results of a layer: its name, which is not empty, and whether it holds no light */
     char layer[KILN_LAYER_NAME_SIZE];
     bool data;

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <linux/openat2.h>
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -18,6 +19,7 @@
 #include "base/file.h"
 #include "base/file_in.h"
 #include "base/hash.h"
+#include "base/log.h"
 
 struct known {
     struct known *next;
@@ -28,6 +30,7 @@ struct known {
 struct kiln_loader {
     struct kiln_loader_params params;
     struct kiln_caller caller;
+    struct kiln_loader_warn warn;
     bool is_counted;       /* true: files are not counted any more */
     pthread_mutex_t mutex; /* guards the members below */
     struct kiln_helper *idle[KILN_DECODE_KIND_COUNT];
@@ -100,6 +103,31 @@ const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader)
 struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader)
 {
     return loader && !loader->is_counted ? loader->params.budget : NULL;
+}
+
+/* ---- warnings -------------------------------------------------------------------------------- */
+
+void kiln_loader_set_warn(struct kiln_loader *loader, struct kiln_loader_warn warn)
+{
+    if (loader)
+        loader->warn = warn;
+}
+
+void kiln_loader_warn(const struct kiln_loader *loader, const char *path, const char *format, ...)
+{
+    char text[KILN_MESSAGE_SIZE];
+    va_list args;
+    if (!loader || !loader->warn.write)
+        return;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    loader->warn.write(loader->warn.user, path, text);
+}
+
+void kiln_loader_log(void *log, const char *path, const char *text)
+{
+    kiln_log_write(log, KILN_LOG_WARNING, "%s: %s", path, text);
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */

@@ -14,6 +14,13 @@ struct kiln_loader_params {
     struct kiln_budget *budget; /* NULL: nothing is counted */
 };
 
+/* A callback that receives what is wrong with a file that is read all the same, in one line of text
+ * that a decoder may have made up. It may be called from any thread that uses the loader. */
+struct kiln_loader_warn {
+    void (*write)(void *user, const char *path, const char *text); /* NULL: nobody is warned */
+    void *user;
+};
+
 /* Creates a loader, which any threads may use at once. NULL when memory is short. All that params
  * points to must outlive it. */
 struct kiln_loader;
@@ -26,6 +33,14 @@ void kiln_loader_rest(struct kiln_loader *loader);
 /* Stops counting files, since files that are loaded again for drawing were counted before. From now
  * on, the budget (or NULL) is that of the job, for memory and time. Does nothing for NULL. */
 void kiln_loader_stop_counting(struct kiln_loader *loader, struct kiln_budget *budget);
+
+/* kiln_loader_set_warn names the callback for warnings; no other thread may use the loader
+ * meanwhile. kiln_loader_warn calls it. kiln_loader_log is such a callback: it writes the path and
+ * the text to a struct kiln_log, which is its user. All do nothing for a loader of NULL. */
+void kiln_loader_set_warn(struct kiln_loader *loader, struct kiln_loader_warn warn);
+void kiln_loader_warn(const struct kiln_loader *loader, const char *path, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void kiln_loader_log(void *log, const char *path, const char *text);
 
 /* Returns the caller made of kiln_loader_params; never NULL, also for a loader of NULL. */
 const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader);

@@ -16,7 +16,7 @@
     X(WEBP, "webp")       /* by libwebp, also the frames of animations */                          \
     X(PROFILE, "profile") /* any of these whose colour profile has tables, with lcms2 */           \
     X(PICTURE, "picture") /* BMP and GIF, by FFmpeg */                                             \
-    X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR */                                 \
+    X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR; HDR */                            \
     X(OPENEXR, "openexr") /* the EXR files that need OpenEXR's C++ */                              \
     X(VIDEO, "video")                                                                              \
     X(MESH, "mesh")
@@ -43,6 +43,7 @@ enum kiln_picture_format {
     KILN_PICTURE_BMP,
     KILN_PICTURE_GIF,
     KILN_PICTURE_EXR,
+    KILN_PICTURE_HDR,
 };
 
 enum kiln_mesh_format { KILN_MESH_OBJ, KILN_MESH_GLTF, KILN_MESH_GLB };
@@ -76,8 +77,9 @@ enum kiln_decode_what {
      * most_pixels, the code is KILN_OVER_LIMIT, and width and height are set. */
     KILN_DECODE_FAILED,
 
-    /* Describes a picture, the next frame of a video, or the next layer of a picture, whose name is
-     * the text. Its pixels follow. */
+    /* Describes a picture, the next frame of a video, or the next layer of a picture. Its pixels
+     * follow. The text is the name of a layer. Of a picture, it says what is wrong with its file
+     * that was read all the same, or is empty. */
     KILN_DECODE_PIXELS,
 
     /* A video has no more frames, or a picture no more layers. */
@@ -89,9 +91,9 @@ enum kiln_decode_what {
     /* Describes a mesh. Its arrays follow, as kiln_mesh_visit_arrays lists them. */
     KILN_DECODE_MESH_MADE,
 
-    /* Only a process of kind KILN_DECODE_PROFILE can decode the picture; of an EXR, one of kind
-     * KILN_DECODE_OPENEXR. */
-    KILN_DECODE_NEEDS_PROFILE,
+    /* Only a process of another kind can decode the picture: one of kind KILN_DECODE_OPENEXR an
+     * EXR, one of kind KILN_DECODE_PROFILE any other file. */
+    KILN_DECODE_NEEDS_OTHER,
 };
 
 struct kiln_decode_answer {

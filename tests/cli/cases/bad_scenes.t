@@ -109,7 +109,7 @@ $ ./texture /etc/passwd absolute
 2|absolute.yaml:2:67: systems.a.look.atlas: '/etc/passwd' is outside the asset root; a path starts at the scene's folder and stays below it
 = 3
 $ echo text >text.png && ./texture text.png no_image
-2|no_image.yaml:2:67: systems.a.look.atlas: 'text.png': the file is not an image: it starts with the bytes 74 65 78 74; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files
+2|no_image.yaml:2:67: systems.a.look.atlas: 'text.png': the file is not an image: it starts with the bytes 74 65 78 74; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files
 = 3
 $ : >nothing.png && ./texture nothing.png nothing
 2|nothing.yaml:2:67: systems.a.look.atlas: 'nothing.png': the image file is empty

@@ -331,7 +331,7 @@ $ kiln compare a/f_%04d.png a/g_%04d.png
 = 3
 $ mkdir void
 $ kiln compare void a
-2|void: the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP, GIF or EXR, by their suffix)
+2|void: the folder has no pictures (PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR, by their suffix)
 = 3
 
 Videos, whole ones and not.

@@ -94,7 +94,7 @@ $ kiln figure triptych scenes/puff.png -o a.png
 2|kiln: figure triptych: needs REFERENCE TEST
 = 2
 $ kiln figure triptych scenes/puff.png scenes/tiny.yaml -o a.png
-2|scenes/tiny.yaml: the file is not an image: it starts with the bytes 23 20 41 20; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF or EXR files
+2|scenes/tiny.yaml: the file is not an image: it starts with the bytes 23 20 41 20; allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files
 = 3
 $ kiln figure strip missing.mp4 -o a.png
 2|missing.mp4: No such file or directory
