@@ -38,7 +38,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|329
+1|330
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION
