@@ -1,8 +1,7 @@
-/* This file converts decoded frames of FFmpeg to pictures. Integer frames go through swscale; float
- * frames are only reordered. */
+/* This file converts decoded frames of FFmpeg to pictures. Frames of bytes of red, green and
+ * blue are copied, others go through swscale. */
 #include "avframe.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,35 +17,6 @@ static enum kiln_code fail(struct conversion *conversion, enum kiln_code code, c
 {
     conversion->problem = problem;
     return code;
-}
-
-static const float *float_row(const AVFrame *frame, int plane, uint32_t y)
-{
-    return (const float *)(const void *)(frame->data[plane] +
-                                         (ptrdiff_t)y * frame->linesize[plane]);
-}
-
-/* Interleaves the planes of a float frame, which FFmpeg orders green, blue, red, alpha. */
-static enum kiln_code interleave_float(struct conversion *conversion)
-{
-    static const int planes[2][3] = {{0, 0, 0}, {2, 0, 1}};
-    const AVFrame *frame = conversion->frame;
-    const struct kiln_asset_image *image = conversion->image;
-    const int *plane = planes[frame->format != AV_PIX_FMT_GRAYF32];
-    bool alpha = frame->format == AV_PIX_FMT_GBRAPF32, finite = true;
-    float *out = image->pixels;
-    for (uint32_t y = 0; y < image->height; y++) {
-        for (uint32_t x = 0; x < image->width; x++, out += 4) {
-            for (int c = 0; c < 3; c++)
-                out[c] = float_row(frame, plane[c], y)[x];
-            out[3] = alpha ? float_row(frame, 3, y)[x] : 1.0f;
-            for (int c = 0; c < 4; c++)
-                finite = finite && isfinite(out[c]);
-        }
-    }
-    return finite ? KILN_OK
-                  : fail(conversion, KILN_INVALID_INPUT,
-                         "the image is cut short, or has pixels that are not finite numbers");
 }
 
 /* Sets the colour matrix and range of a frame that is not RGB. */
@@ -90,8 +60,8 @@ static enum kiln_code convert_integer(struct conversion *conversion)
  * each, or an index into a palette. */
 static bool is_plain(const AVPixFmtDescriptor *layout)
 {
-    const uint64_t other = AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_PLANAR |
-                           AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
+    const uint64_t other =
+        AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_PLANAR | AV_PIX_FMT_FLAG_BAYER;
     const bool colored = (layout->flags & AV_PIX_FMT_FLAG_RGB) && layout->nb_components >= 3;
     return !(layout->flags & other) && layout->comp[0].depth <= 8 &&
            ((layout->flags & AV_PIX_FMT_FLAG_PAL) || colored);
@@ -143,24 +113,21 @@ static enum kiln_code convert(struct conversion *conversion)
     conversion->image = image;
     if (!layout || !image)
         return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
-    bool is_float = frame->format == AV_PIX_FMT_GBRPF32 || frame->format == AV_PIX_FMT_GBRAPF32 ||
-                    frame->format == AV_PIX_FMT_GRAYF32;
+    if (layout->flags & AV_PIX_FMT_FLAG_FLOAT)
+        return fail(conversion, KILN_INVALID_INPUT,
+                    "its frames are floats, such as EXR, which kiln does not read from a video; "
+                    "EXR files are read one for each frame");
     image->width = (uint32_t)frame->width;
     image->height = (uint32_t)frame->height;
-    image->type = is_float                    ? KILN_IMAGE_F32
-                  : layout->comp[0].depth > 8 ? KILN_IMAGE_U16
-                                              : KILN_IMAGE_U8;
-    image->srgb = !is_float && frame->color_trc != AVCOL_TRC_LINEAR;
-    image->premultiplied = frame->format == AV_PIX_FMT_GBRAPF32;
+    image->type = layout->comp[0].depth > 8 ? KILN_IMAGE_U16 : KILN_IMAGE_U8;
+    image->srgb = frame->color_trc != AVCOL_TRC_LINEAR;
     /* swscale may write whole vectors past the last row's end. */
     enum { SLACK = 64 };
     image->pixels = malloc(kiln_asset_image_bytes(image) + SLACK);
     if (!image->pixels)
         return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
     enum kiln_code code = KILN_OK;
-    if (is_float)
-        code = interleave_float(conversion);
-    else if (is_plain(layout))
+    if (is_plain(layout))
         copy_plain(frame, layout, image);
     else
         code = convert_integer(conversion);

@@ -149,7 +149,7 @@ static bool take_variable(struct reading *reading, const char *line)
 /* Takes the signature and the variables, up to the empty line. */
 static bool take_variables(struct reading *reading)
 {
-    char line[WORDS];
+    char line[WORDS] = "";
     bool ok = take_line(reading, line);
     while (ok && *line) {
         ok = take_line(reading, line);
@@ -189,7 +189,7 @@ static bool take_sizes(struct reading *reading)
     static const uint32_t orientations[2][2][2] = {/* [X is first][X grows][Y grows] */
                                                    {{2, 3}, {1, 4}},
                                                    {{6, 7}, {5, 8}}};
-    char line[WORDS];
+    char line[WORDS] = "";
     struct axis first, second;
     const char *text = line;
     if (!take_line(reading, line))
@@ -279,12 +279,21 @@ static bool take_pixels(struct reading *reading, uint8_t *line)
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-static bool make_image(const struct reading *reading, struct kiln_asset_image *image)
+static struct kiln_asset_image *make_image(const struct reading *reading)
 {
-    *image = (struct kiln_asset_image){
-        .width = reading->columns, .height = reading->rows, .channels = 3, .type = KILN_IMAGE_F32};
-    image->pixels = malloc(kiln_asset_image_bytes(image));
-    return image->pixels || decode_out_of_memory(reading->picture->error);
+    struct kiln_asset_image *image = calloc(1, sizeof *image);
+    if (image) {
+        *image = (struct kiln_asset_image){.width = reading->columns,
+                                           .height = reading->rows,
+                                           .channels = 3,
+                                           .type = KILN_IMAGE_F32};
+        image->pixels = malloc(kiln_asset_image_bytes(image));
+    }
+    if (!image || !image->pixels) {
+        kiln_asset_image_destroy(&image);
+        decode_out_of_memory(reading->picture->error);
+    }
+    return image;
 }
 
 /* Reads all lines. The quotient is computed in double and rounded once. */
@@ -353,13 +362,12 @@ struct kiln_asset_image *decode_hdr(struct decode_picture *picture)
         return NULL;
     if (picture->raw)
         reading.exposures[0] = reading.exposures[1] = reading.exposures[2] = 1.0;
-    struct kiln_asset_image *image = calloc(1, sizeof *image);
-    bool ok = image || decode_out_of_memory(picture->error);
-    ok = ok && make_image(&reading, image) && read_lines(&reading, image);
+    struct kiln_asset_image *image = make_image(&reading);
+    bool ok = image && read_lines(&reading, image);
     if (ok && !picture->raw)
         ok = show_colors(&reading, image) &&
              (decode_turn(image, reading.orientation) || decode_out_of_memory(picture->error));
-    if (!ok && image)
+    if (!ok)
         kiln_asset_image_destroy(&image);
     return image;
 }

@@ -28,8 +28,9 @@ static float linear_to_level(float x)
     return copysignf(255.0f * encoded, x);
 }
 
-/* Returns the light, multiplied by alpha, of a number that is multiplied by alpha in its encoding
- * (lib/asset/image/linear.c). */
+/* Returns the light, multiplied by alpha, of a number that is multiplied by alpha in its encoding.
+ * lib/asset/image/linear.c has the same formulas in floats, for textures; their light is up to 11
+ * units in the last place off, which would change the numbers of verdicts. */
 static double associated_light(double x, double alpha)
 {
     if (x <= alpha)

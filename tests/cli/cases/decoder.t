@@ -48,3 +48,10 @@ $ ./mesh lines.obj 2>/dev/null; sed -i s/lines/slow/ scene.yaml
 $ exec 2>/dev/null; set -m; kiln check -q scene.yaml & sleep 0.5; pgrep -r R,S,D -g $! | wc -l; kill -KILL $!; wait; sleep 1; pgrep -r R,S,D -g $! | wc -l
 1|2
 1|0
+
+A video of float frames is refused, since FFmpeg reads EXR in another way than OpenEXR does.
+
+$ for file in a.mov a.mkv; do ffmpeg -nostdin -loglevel error -f lavfi -i testsrc=size=8x8 -frames:v 2 -pix_fmt gbrpf32le -c:v exr $file && kiln compare -q $file $file; done
+2|a.mov: its frames are floats, such as EXR, which kiln does not read from a video; EXR files are read one for each frame
+2|a.mkv: its frames are floats, such as EXR, which kiln does not read from a video; EXR files are read one for each frame
+= 3
