@@ -1,7 +1,8 @@
-/* lib/asset/geometry/mesh_measure.c against bodies whose mean shadow is known. */
+/* lib/asset/geometry/mesh_measure.c against bodies whose mean shadow and thickness are known. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "asset/geometry/mesh_measure.h"
@@ -49,11 +50,60 @@ static void a_sheet(void **state)
     }
 }
 
+/* Writes a cube between -half and half. inside_out: its triangles run the other way. */
+static size_t write_cube(char *text, size_t size, double half, bool inside_out)
+{
+    static const int faces[6][4] = {{-5, -6, -7, -8}, {-4, -3, -2, -1}, {-8, -7, -3, -4},
+                                    {-7, -6, -2, -3}, {-6, -5, -1, -2}, {-5, -8, -4, -1}};
+    size_t used = 0;
+    for (int i = 0; i < 8; i++) {
+        const int x = i % 4 == 1 || i % 4 == 2, y = i % 4 >= 2, z = i >= 4;
+        used += (size_t)snprintf(text + used, size - used, "v %g %g %g\n", x ? half : -half,
+                                 y ? half : -half, z ? half : -half);
+    }
+    for (int i = 0; i < 6; i++) {
+        const int *f = faces[i];
+        used +=
+            (size_t)snprintf(text + used, size - used, "f %d %d %d %d\n", f[inside_out ? 3 : 0],
+                             f[inside_out ? 2 : 1], f[inside_out ? 1 : 2], f[inside_out ? 0 : 3]);
+    }
+    return used;
+}
+
+static double thinnest(const char *text)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_parse(text, strlen(text), "test.obj", &error);
+    double found = -1;
+    if (!mesh)
+        fail_msg("%s", error.message);
+    assert_true(kiln_mesh_thinnest(mesh, &found));
+    kiln_mesh_destroy(&mesh);
+    return found;
+}
+
+/* A cube is as thin as its edge, whichever way its triangles run; a hollow one as its wall, which
+ * is 0.1; a sheet has no other side. */
+static void the_thinnest_part(void **state)
+{
+    (void)state;
+    char text[2048];
+    write_cube(text, sizeof text, 1, false);
+    assert_true(fabs(thinnest(text) - 2) < 1e-6);
+    write_cube(text, sizeof text, 1, true);
+    assert_true(fabs(thinnest(text) - 2) < 1e-6);
+    const size_t used = write_cube(text, sizeof text, 1, false);
+    write_cube(text + used, sizeof text - used, 0.9, true);
+    assert_true(fabs(thinnest(text) - 0.1) < 1e-6);
+    assert_true(isinf(thinnest("v 0 0 0\nv 3 0 0\nv 0 0 1\nf 1 2 3\n")));
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box),
         cmocka_unit_test(a_sheet),
+        cmocka_unit_test(the_thinnest_part),
     };
     return cmocka_run_group_tests_name("mesh_measure", tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Measures how large a mesh is. lib/scene/particle_mesh.c and lib/draw/moment/instances.c use the
- * sizes to draw particles as meshes and, in shadows, as spheres that stand for the meshes. */
+/* Measures how large and how thick a mesh is. lib/scene/particle_mesh.c and
+ * lib/draw/moment/instances.c use the sizes to draw particles as meshes and, in shadows, as spheres
+ * that stand for the meshes. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 #define KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 
@@ -16,5 +17,10 @@ struct kiln_mesh_measure {
 };
 
 struct kiln_mesh_measure kiln_mesh_measure(const struct kiln_mesh *mesh);
+
+/* Measures the thinnest part of a closed mesh: the least distance from the middle of a triangle,
+ * inwards along its normal, to the other side. Infinite if no such ray meets another side. Returns
+ * false when memory is short. */
+bool kiln_mesh_thinnest(const struct kiln_mesh *mesh, double *thinnest);
 
 #endif

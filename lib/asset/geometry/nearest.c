@@ -91,6 +91,42 @@ static double box_square(const struct node *node, const double p[3])
     return sum;
 }
 
+/* Returns where a ray enters a box, or `most` if it is not before that. */
+static double box_along(const struct node *node, const struct kiln_nearest_ray *ray, double most)
+{
+    double in = 0.0, out = most;
+    for (int c = 0; c < 3; c++) {
+        const double below = (double)node->min[c] - ray->from[c];
+        const double above = (double)node->max[c] - ray->from[c];
+        if (ray->way[c] == 0.0) {
+            if (below > 0.0 || above < 0.0)
+                return most;
+            continue;
+        }
+        const double a = below / ray->way[c], b = above / ray->way[c];
+        in = (a < b ? a : b) > in ? least(a, b) : in;
+        out = least(out, a < b ? b : a);
+    }
+    return in <= out ? in : most;
+}
+
+/* Returns where a ray hits a triangle from behind, or `most` (Moeller and Trumbore 1997). */
+static double triangle_along(const struct kiln_mesh *mesh, uint32_t triangle,
+                             const struct kiln_nearest_ray *ray, double most)
+{
+    const struct vec a = corner(mesh, triangle, 0), way = {ray->way[0], ray->way[1], ray->way[2]};
+    const struct vec ab = sub(corner(mesh, triangle, 1), a);
+    const struct vec ac = sub(corner(mesh, triangle, 2), a);
+    const struct vec across = cross(way, ac);
+    const double turn = dot(ab, across);
+    if (triangle == ray->start || turn >= 0.0) /* above 0: it is seen from the front */
+        return most;
+    const struct vec off = sub((struct vec){ray->from[0], ray->from[1], ray->from[2]}, a);
+    const struct vec up = cross(off, ab);
+    const double u = dot(off, across) / turn, v = dot(way, up) / turn, t = dot(ac, up) / turn;
+    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 ? least(t, most) : most;
+}
+
 /* ---- building the tree ----------------------------------------------------------------------- */
 
 static void bound(const struct kiln_nearest *tree, struct node *node, uint32_t first,
@@ -214,4 +250,28 @@ double kiln_nearest_square(const struct kiln_nearest *nearest, const double p[3]
         stack[left++] = first_is_nearer ? first : second;
     }
     return square;
+}
+
+double kiln_nearest_along(const struct kiln_nearest *nearest, const struct kiln_nearest_ray *ray,
+                          double most)
+{
+    uint32_t stack[STACK], left = 1;
+    double found = most;
+    stack[0] = 0;
+    while (left > 0) {
+        const uint32_t number = stack[--left];
+        const struct node *node = &nearest->nodes[number];
+        if (box_along(node, ray, found) >= found)
+            continue;
+        for (uint32_t i = 0; i < node->count; i++)
+            found = triangle_along(nearest->mesh, nearest->order[node->first + i], ray, found);
+        if (node->count > 0)
+            continue;
+        const uint32_t first = number + 1, second = node->first;
+        const bool first_is_nearer = box_along(&nearest->nodes[first], ray, found) <=
+                                     box_along(&nearest->nodes[second], ray, found);
+        stack[left++] = first_is_nearer ? second : first;
+        stack[left++] = first_is_nearer ? first : second;
+    }
+    return found;
 }

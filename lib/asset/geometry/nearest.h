@@ -1,4 +1,5 @@
-/* Finds how far a point is from the triangles of a mesh, by a tree of bounding boxes.
+/* Finds how far a point is from the triangles of a mesh, in all directions or along a ray, by a
+ * tree of bounding boxes.
  * asset/geometry/field.c builds a tree while it makes the signed distance field of a mesh that
  * particles bounce off. It asks for the distance of each sample, on several threads at once.
  *
@@ -21,5 +22,17 @@ void kiln_nearest_destroy(struct kiln_nearest **nearest);
  * `most` is a square, too; a small one saves time, since boxes that are farther are skipped.
  * Several threads may call it at once. */
 double kiln_nearest_square(const struct kiln_nearest *nearest, const double p[3], double most);
+
+/* A ray that leaves a triangle of the mesh. */
+struct kiln_nearest_ray {
+    double from[3];
+    double way[3];  /* a unit vector */
+    uint32_t start; /* the triangle, which it does not hit */
+};
+
+/* Returns the distance to the first triangle that the ray hits from behind, where triangles that
+ * run counter-clockwise are seen from the front; or `most`, if that is less. */
+double kiln_nearest_along(const struct kiln_nearest *nearest, const struct kiln_nearest_ray *ray,
+                          double most);
 
 #endif
