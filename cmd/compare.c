@@ -69,7 +69,7 @@ static const struct option options[] = {
      .placeholder = "auto|ldr|hdr",
      .help = "How FLIP judges light: ldr clamps it at white, hdr judges several exposures of the "
              "reference.",
-     .fallback = "auto: hdr if one of the pictures is EXR"},
+     .fallback = "auto: hdr if one of the pictures is EXR or HDR"},
     {.name = "ppd",
      .kind = OPTION_NUMBER,
      .placeholder = "N",

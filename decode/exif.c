@@ -47,9 +47,8 @@ static bool find_orientation(struct exif *exif, uint32_t *orientation)
             return false;
         if (number16(exif, at) == ORIENTATION && number16(exif, at + 2) == SHORT) {
             const uint32_t found = number16(exif, at + 8);
-            const bool known = found >= 1 && found <= 8;
-            *orientation = known ? found : 1;
-            return known;
+            *orientation = found >= 1 && found <= 8 ? found : 1;
+            return found <= 8; /* some cameras write 0 for an unknown one */
         }
     }
     return true;

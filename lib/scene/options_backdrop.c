@@ -343,7 +343,8 @@ TABLE(sky) = {
     {ROW(LOOK, "image", picture, sky_image, "none",
          "The whole sphere around the scene as one picture, left to right and top to bottom, in "
          "place of the gradient. Its middle lies towards -z. Averages of its colours over parts of "
-         "the sky light the scene.")},
+         "the sky light the scene. Files of floats, such as HDR and EXR, have light that is "
+         "brighter than white.")},
     VALUE(LOOK, "rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
           "0 deg", "Angle by which the image is turned about y."),
     VALUE(LOOK, "intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME, "1",

@@ -64,6 +64,9 @@ def patched(data, at, new):
     return data[:at] + new + data[at + len(new):]
 
 
+HDR = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n%s\n-Y %d +X %d\n"
+
+
 def others():
     jpeg, bmp, tiff, webp = encoded("JPEG"), encoded("BMP"), encoded("TIFF"), encoded("WEBP")
     frame = jpeg.index(b"\xff\xc0") + 5
@@ -85,6 +88,11 @@ def others():
         "WebP animation": ("a.webp", b"RIFF\x1e\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\xff\xff\xff\xff\xff\xff"),
         "EXR head": ("a.exr", b"v/1\x01"), "EXR version": ("a.exr", b"v/1\x01\xff\xff\xff\xff" + bytes(100)),
         "EXR attribute": ("a.exr", b"v/1\x01\x02\0\0\0channels\0chlist\0\xff\xff\xff\x7f"),
+        "HDR size": ("a.hdr", HDR % (b"", 0x7fffffff, 0x7fffffff)), "HDR cut": ("a.hdr", HDR % (b"", 16384, 4096)),
+        "HDR head": ("a.hdr", b"#?RADIANCE\n" + 100000 * b"EXPOSURE=1e-30\n"), "HDR line": ("a.hdr", b"#?" + bytes(1 << 20)),
+        "HDR run": ("a.hdr", HDR % (b"", 1, 4096) + b"\x80\x80\x80\x80" + 4 * b"\1\1\1\xff"),
+        "HDR nothing": ("a.hdr", HDR % (b"", 1, 4096) + b"\x80\x80\x80\x80" + 100000 * b"\1\1\1\0"),
+        "HDR exposure": ("a.hdr", HDR % (b"EXPOSURE=1e-30\n", 1, 1) + b"\xff\xff\xff\xff"),
         "SVG": ("a.png", b"<svg xmlns='http://www.w3.org/2000/svg'><image href='file:///etc/passwd'/></svg>"),
         "playlist": ("a.png", b"#EXTM3U\n#EXTINF:1,\n/etc/passwd\n"), "GIF": ("a.png", b"GIF89a" + bytes(40)),
         "PDF": ("a.png", b"%PDF-1.4\n"), "zip": ("a.png", b"PK\x03\x04" + bytes(100)),

@@ -25,6 +25,12 @@ $ kiln encode light -o dark.mp4 --tonemap agx --exposure -3 --quiet && cmp -s da
 $ kiln encode light -o none.mp4
 2|kiln: light/00.exr: the image is linear light; choose by --tonemap (none, agx or aces) how it becomes colours
 = 2
+$ mkdir hdr && for i in 0 1; do (printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16 +X 2\n' && for y in {1..32}; do printf '\200\100\40\200'; done) >hdr/$i.hdr; done
+$ kiln encode hdr -o hdr.apng --fps 10
+2|kiln: hdr/0.hdr: the image is linear light; choose by --tonemap (none, agx or aces) how it becomes colours
+= 2
+$ kiln encode hdr -o hdr.apng --fps 10 --tonemap none --quiet && ffmpeg -nostdin -loglevel error -i hdr.apng -frames:v 1 -f rawvideo -pix_fmt rgb24 - | head -c 3 | od -An -tu1
+1| 187 136  99
 $ kiln encode mp4 -o none.mp4 --tonemap agx
 2|kiln: --tonemap: not allowed; mp4/f_000.png has colours already, not linear light
 = 2

@@ -343,7 +343,8 @@ $ kiln help compare
 1|                              in layers of data, such as depths. Default: 0.
 1|      --range auto|ldr|hdr    How FLIP judges light: ldr clamps it at white, hdr
 1|                              judges several exposures of the reference.
-1|                              Default: auto: hdr if one of the pictures is EXR.
+1|                              Default: auto: hdr if one of the pictures is EXR
+1|                              or HDR.
 1|      --ppd N                 Number of pixels in a degree of the viewer's field
 1|                              of view. Default: 67.0206, a 0.7 m wide screen of
 1|                              3840 pixels from 0.7 m.

@@ -23,6 +23,12 @@ $ kiln encode odd -o odd.apng --fps 10 --quiet
 $ kiln render scenes/tiny.yaml -o puff.jpg --frames 3 --quiet && (head -c 2 puff.jpg; printf '\xff\xe1\0\x0bExif\0\0nil'; tail -c +3 puff.jpg) >odd.jpg && kiln compare --quiet odd.jpg puff.jpg
 2|kiln: warning: odd.jpg: its Exif data are broken and are ignored
 
+An orientation of 0 is that of cameras without a sensor for it, and is no fault; 9 is one.
+
+$ turned() { head -c 2 puff.jpg; printf "\xff\xe1\0\x22Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x0$1\0\0\0\0\0\0\0"; tail -c +3 puff.jpg; }
+> for i in 0 1 9; do turned $i >turned_$i.jpg; kiln compare --quiet turned_$i.jpg puff.jpg; done
+2|kiln: warning: turned_9.jpg: its Exif data are broken and are ignored
+
 A clip that begins again, since a later frame is transparent, warns of no file twice.
 
 $ mkdir two && ffmpeg -nostdin -loglevel error -i scenes/puff.png -pix_fmt rgb24 -bitexact solid.png && for i in 0 1 3; do head -c -12 solid.png >two/$i.png; done && cp odd/1.png two/2.png
