@@ -5,6 +5,7 @@
  * the help, the man page, the completion and the sandbox read its options. The printed text of a
  * scene must stay a scene file, so anything else is printed as a YAML comment. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "command.h"
@@ -37,6 +38,31 @@ static bool print_work(const struct kiln_scene_info *info)
                   info->steps, info->particle_capacity, info->memory_bytes >> 20) >= 0;
 }
 
+/* Prints what a mesh is, as YAML comments: its size, and whether it has an inside. */
+static void print_mesh(void *user, const struct kiln_mesh_info *info)
+{
+    (void)user;
+    char text[KILN_MESSAGE_SIZE];
+    kiln_shown(text, sizeof text, info->path);
+    printf("# mesh %s: %s, %" PRIu32 " triangle%s, %" PRIu32 " vertices, from %g %g %g to %g %g "
+           "%g\n",
+           text, info->format, info->triangles, info->triangles == 1 ? "" : "s", info->vertices,
+           (double)info->min[0], (double)info->min[1], (double)info->min[2], (double)info->max[0],
+           (double)info->max[1], (double)info->max[2]);
+    if (info->open)
+        printf("#   not closed: %s\n", info->open);
+    else if (isfinite(info->thinnest))
+        printf("#   closed, its thinnest part %.4g\n", info->thinnest);
+    else
+        printf("#   closed\n");
+    if (info->joints > 0)
+        printf("#   %" PRIu32 " joints\n", info->joints);
+    for (uint32_t i = 0; i < info->clip_count; i++) {
+        kiln_shown(text, sizeof text, info->clips[i].name);
+        printf("#   clip %" PRIu32 " '%s' of %.4g s\n", i, text, info->clips[i].seconds);
+    }
+}
+
 /* Prints the hash of a scene, or the scene and its work. With `several` scenes, the path is
  * printed, too. Returns false when printing failed. */
 static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
@@ -49,7 +75,8 @@ static bool print_scene(const struct kiln_scene *scene, const char *path, bool h
         return printf("%s\n", info.hash) >= 0;
     if (several && printf("--- # %s\n", path) < 0)
         return false;
-    return kiln_scene_print(scene, stdout) && print_work(&info);
+    return kiln_scene_print(scene, stdout) && kiln_scene_visit_meshes(scene, print_mesh, NULL) &&
+           print_work(&info);
 }
 
 static int run(const struct arguments *arguments)
@@ -91,7 +118,9 @@ const struct command check_command = {
     .description =
         "Reads each scene and prints it with every default spelled out. '-' reads a scene from "
         "standard input, whose files lie below the working directory. The output is a scene file "
-        "that renders to the same pictures. A comment at its end tells the work of the whole clip: "
+        "that renders to the same pictures. Comments at its end tell what its meshes are (their "
+        "size, "
+        "whether they are closed, their joints and clips), and the work of the whole clip: "
         "steps, particles at once, and memory. The memory is that of rendering without OpenGL, "
         "within a factor of 1.5, encoders left out. After a wrong scene is reported, the other "
         "scenes are checked all the same. A scene that asks for more than --limits allow ends with "

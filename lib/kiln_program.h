@@ -76,6 +76,31 @@ const char *kiln_scene_introduction(void);
 bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
                               void *user, struct kiln_error *error);
 
+/* A clip of a mesh. */
+struct kiln_mesh_clip {
+    const char *name; /* may be empty */
+    double seconds;
+};
+
+/* A mesh that a scene names. */
+struct kiln_mesh_info {
+    const char *path; /* from the asset root */
+    const char *format;
+    uint32_t triangles, vertices;
+    float min[3], max[3]; /* bounds of the rest pose, in units of the file */
+    uint32_t joints;      /* bones that move vertices */
+    const struct kiln_mesh_clip *clips;
+    uint32_t clip_count;
+    const char *open; /* where it is open; NULL: it is closed */
+    double thinnest;  /* of a closed mesh: its thinnest part, in units of the file; or infinite */
+};
+
+/* Visits the meshes of a scene, in the order of their paths; the texts are valid during the visit.
+ * Measuring a large mesh takes seconds. Returns false when memory is short. */
+bool kiln_scene_visit_meshes(const struct kiln_scene *scene,
+                             void (*visit)(void *user, const struct kiln_mesh_info *info),
+                             void *user);
+
 /* Writes the techniques of each stage and their purposes, for people. */
 bool kiln_write_techniques(FILE *out);
 

@@ -112,3 +112,37 @@ const struct kiln_skin *kiln_mesh_library_get_skin(struct kiln_mesh_library *lib
     const struct entry *entry = get(library, path, MOVING, error);
     return entry ? entry->skin : NULL;
 }
+
+/* Orders by path; of one path, a mesh that moves comes first, since it tells most. */
+static int by_path(const void *a, const void *b)
+{
+    const struct entry *x = *(const struct entry *const *)a, *y = *(const struct entry *const *)b;
+    const int order = strcmp(x->path, y->path);
+    return order ? order : (int)y->way - (int)x->way;
+}
+
+bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,
+                             bool (*visit)(void *user, const char *path,
+                                           const struct kiln_mesh *mesh,
+                                           const struct kiln_skin *skin),
+                             void *user)
+{
+    size_t count = 0;
+    for (const struct entry *entry = library->entries; entry; entry = entry->next)
+        count++;
+    const struct entry **entries = malloc((count + 1) * sizeof *entries);
+    bool ok = entries != NULL;
+    count = 0;
+    for (const struct entry *entry = library->entries; ok && entry; entry = entry->next)
+        entries[count++] = entry;
+    if (ok)
+        qsort(entries, count, sizeof(struct entry *), by_path);
+    for (size_t i = 0; ok && i < count; i++) {
+        const struct entry *entry = entries[i];
+        if (i == 0 || strcmp(entries[i - 1]->path, entry->path) != 0)
+            ok = visit(user, entry->path, entry->skin ? kiln_skin_mesh(entry->skin) : entry->mesh,
+                       entry->skin);
+    }
+    free(entries);
+    return ok;
+}

@@ -25,4 +25,12 @@ const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library
 const struct kiln_skin *kiln_mesh_library_get_skin(struct kiln_mesh_library *library,
                                                    const char *path, struct kiln_error *error);
 
+/* Visits each file of the library once, in the order of the paths. skin: of a mesh that moves, else
+ * NULL. Stops and returns false when a visit does, or when memory is short. */
+bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,
+                             bool (*visit)(void *user, const char *path,
+                                           const struct kiln_mesh *mesh,
+                                           const struct kiln_skin *skin),
+                             void *user);
+
 #endif

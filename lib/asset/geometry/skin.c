@@ -478,6 +478,21 @@ bool kiln_skin_find_clip(const struct kiln_skin *skin, const char *clip, const c
                           name, clip, known, skin->clip_count - 1);
 }
 
+uint32_t kiln_skin_bone_count(const struct kiln_skin *skin)
+{
+    return skin->bone_count;
+}
+
+uint32_t kiln_skin_clip_count(const struct kiln_skin *skin)
+{
+    return skin->clip_count;
+}
+
+const char *kiln_skin_clip_name(const struct kiln_skin *skin, uint32_t clip)
+{
+    return skin->clips[clip].name;
+}
+
 float kiln_skin_clip_length(const struct kiln_skin *skin, uint32_t clip)
 {
     return skin->lengths[clip];

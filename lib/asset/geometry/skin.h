@@ -36,6 +36,12 @@ const struct kiln_mesh *kiln_skin_mesh(const struct kiln_skin *skin);
 bool kiln_skin_find_clip(const struct kiln_skin *skin, const char *clip, const char *name,
                          uint32_t *number, struct kiln_error *error);
 
+uint32_t kiln_skin_bone_count(const struct kiln_skin *skin);
+uint32_t kiln_skin_clip_count(const struct kiln_skin *skin);
+
+/* Returns the name of a clip, which may be empty. */
+const char *kiln_skin_clip_name(const struct kiln_skin *skin, uint32_t clip);
+
 /* Returns the length of a clip, from 0 to its last key, s. */
 float kiln_skin_clip_length(const struct kiln_skin *skin, uint32_t clip);
 
