@@ -10,10 +10,12 @@
 #include "base/error.h"
 #include "compare/values.h"
 
-/* The layers that a picture of the difference shows. */
+/* The layers that a picture of the difference shows: colours that differ before data that differ,
+ * then those with the highest score. */
 struct shown {
     struct kiln_compare_picture *pictures[2];
     float *errors;
+    int rank;
     double score;
 };
 
@@ -68,17 +70,19 @@ static void drop_shown(struct shown *shown)
     *shown = (struct shown){0};
 }
 
-/* Keeps the layer to be drawn, if its score is the highest so far. The pictures and the errors are
- * taken or freed. */
-static void keep_shown(struct comparing *c, struct shown *layer)
+/* Keeps the layer to be drawn, if none before it comes first. The pictures and the errors are taken
+ * or freed. */
+static void keep_shown(struct comparing *c, struct shown *shown,
+                       const struct kiln_compare_layer *layer)
 {
-    if (c->shown.errors && !(layer->score > c->shown.score)) {
-        drop_shown(layer);
-        return;
-    }
-    drop_shown(&c->shown);
-    c->shown = *layer;
-    *layer = (struct shown){0};
+    shown->rank = layer->verdict == KILN_COMPARE_SAME ? 0 : layer->data ? 1 : 2;
+    shown->score = layer->score;
+    const bool first = !c->shown.errors || shown->rank > c->shown.rank ||
+                       (shown->rank == c->shown.rank && shown->score > c->shown.score);
+    struct shown *dropped = first ? &c->shown : shown;
+    drop_shown(dropped);
+    if (first)
+        c->shown = *shown;
 }
 
 /* Makes the mask for a pair of pictures of one size. *mask is NULL without masks. */
@@ -185,10 +189,10 @@ static bool measure(struct comparing *c, struct kiln_compare_picture *pictures[2
         c->frame->flip_s += measurement.flip_s;
     }
     if (ok && is_drawn(c)) {
-        struct shown shown = {{pictures[0], pictures[1]}, measurement.errors, layer->score};
+        struct shown shown = {.pictures = {pictures[0], pictures[1]}, .errors = measurement.errors};
         pictures[0] = pictures[1] = NULL;
         measurement.errors = NULL;
-        keep_shown(c, &shown);
+        keep_shown(c, &shown, layer);
     }
     kiln_measurement_finish(&measurement);
     return ok;
@@ -229,12 +233,12 @@ static bool compare_data(struct comparing *c, const struct kiln_mask *mask,
         layer->message = "the numbers of channels differ";
         layer->score = INFINITY;
     }
-    struct shown shown = {.score = layer->score};
+    struct shown shown = {.errors = NULL};
     if (!is_drawn(c))
         return true;
     if (!kiln_values_show(images, masked, shown.pictures, &shown.errors, c->error))
         return false;
-    keep_shown(c, &shown);
+    keep_shown(c, &shown, layer);
     return true;
 }
 
