@@ -1,6 +1,5 @@
 /* Compares one frame of two sides. Both sides give their layers in one order, so layers of one name
- * are paired as in a merge, and memory holds one pair at a time, and the pair with the highest
- * score, which is drawn. */
+ * are paired as in a merge, and memory holds one pair at a time and the one that is drawn. */
 #include "compare/frame.h"
 
 #include <math.h>
@@ -10,13 +9,12 @@
 #include "base/error.h"
 #include "compare/values.h"
 
-/* The layers that a picture of the difference shows: colours that differ before data that differ,
- * then those with the highest score. */
+/* The layers that a picture of the difference shows: the first colours that differ or else, the
+ * first data that do, or else the first layer. */
 struct shown {
     struct kiln_compare_picture *pictures[2];
     float *errors;
-    int rank;
-    double score;
+    int rank; /* 2: colours that differ, 1: data that differ */
 };
 
 struct comparing {
@@ -76,9 +74,7 @@ static void keep_shown(struct comparing *c, struct shown *shown,
                        const struct kiln_compare_layer *layer)
 {
     shown->rank = layer->verdict == KILN_COMPARE_SAME ? 0 : layer->data ? 1 : 2;
-    shown->score = layer->score;
-    const bool first = !c->shown.errors || shown->rank > c->shown.rank ||
-                       (shown->rank == c->shown.rank && shown->score > c->shown.score);
+    const bool first = !c->shown.errors || shown->rank > c->shown.rank;
     struct shown *dropped = first ? &c->shown : shown;
     drop_shown(dropped);
     if (first)
