@@ -131,7 +131,8 @@ struct kiln_compare_params {
                                  the most differing pixels */
     uint32_t threads;         /* 0 takes one a core */
     /* Path of a PNG of reference, test and error map side by side for each frame that was compared,
-     * or NULL. Of several layers, the one with the highest score is drawn.
+     * or NULL. Of several layers, the first colours that differ are drawn, or else the first data
+     * that do.
      * For sequences it is a pattern, or a folder (which exists, or has a slash at its end). */
     const char *diff;
     const char *error_map; /* path, as `diff`, of a PNG of the error map alone; or NULL */

@@ -1,6 +1,5 @@
 /* Compares one frame of two sides. Both sides give their layers in one order, so layers of one name
- * are paired as in a merge, and memory holds one pair at a time, and the pair with the highest
- * score, which is drawn. */
+ * are paired as in a merge, and memory holds one pair at a time and the one that is drawn. */
 #include "compare/frame.h"
 
 #include <math.h>
@@ -10,11 +9,12 @@
 #include "base/error.h"
 #include "compare/values.h"
 
-/* The layers that a picture of the difference shows. */
+/* The layers that a picture of the difference shows: the first colours that differ or else, the
+ * first data that do, or else the first layer. */
 struct shown {
     struct kiln_compare_picture *pictures[2];
     float *errors;
-    double score;
+    int rank; /* 2: colours that differ, 1: data that differ */
 };
 
 struct comparing {
@@ -68,17 +68,17 @@ static void drop_shown(struct shown *shown)
     *shown = (struct shown){0};
 }
 
-/* Keeps the layer to be drawn, if its score is the highest so far. The pictures and the errors are
- * taken or freed. */
-static void keep_shown(struct comparing *c, struct shown *layer)
+/* Keeps the layer to be drawn, if none before it comes first. The pictures and the errors are taken
+ * or freed. */
+static void keep_shown(struct comparing *c, struct shown *shown,
+                       const struct kiln_compare_layer *layer)
 {
-    if (c->shown.errors && !(layer->score > c->shown.score)) {
-        drop_shown(layer);
-        return;
-    }
-    drop_shown(&c->shown);
-    c->shown = *layer;
-    *layer = (struct shown){0};
+    shown->rank = layer->verdict == KILN_COMPARE_SAME ? 0 : layer->data ? 1 : 2;
+    const bool first = !c->shown.errors || shown->rank > c->shown.rank;
+    struct shown *dropped = first ? &c->shown : shown;
+    drop_shown(dropped);
+    if (first)
+        c->shown = *shown;
 }
 
 /* Makes the mask for a pair of pictures of one size. *mask is NULL without masks. */
@@ -185,10 +185,10 @@ static bool measure(struct comparing *c, struct kiln_compare_picture *pictures[2
         c->frame->flip_s += measurement.flip_s;
     }
     if (ok && is_drawn(c)) {
-        struct shown shown = {{pictures[0], pictures[1]}, measurement.errors, layer->score};
+        struct shown shown = {.pictures = {pictures[0], pictures[1]}, .errors = measurement.errors};
         pictures[0] = pictures[1] = NULL;
         measurement.errors = NULL;
-        keep_shown(c, &shown);
+        keep_shown(c, &shown, layer);
     }
     kiln_measurement_finish(&measurement);
     return ok;
@@ -229,12 +229,12 @@ static bool compare_data(struct comparing *c, const struct kiln_mask *mask,
         layer->message = "the numbers of channels differ";
         layer->score = INFINITY;
     }
-    struct shown shown = {.score = layer->score};
+    struct shown shown = {.errors = NULL};
     if (!is_drawn(c))
         return true;
     if (!kiln_values_show(images, masked, shown.pictures, &shown.errors, c->error))
         return false;
-    keep_shown(c, &shown);
+    keep_shown(c, &shown, layer);
     return true;
 }
 

@@ -182,8 +182,8 @@ static void masks_hide_data_too(void **state)
     assert_int_equal(told.differing, 8);
 }
 
-/* The picture of the difference is that of the layer that differs. Of the depths 1 and 2, the first
- * is black and the second white. */
+/* The picture of the difference is that of the layer that differs, of colours before data. Of the
+ * depths 1 and 2, the first is black and the second white. */
 static void the_worst_layer_is_drawn(void **state)
 {
     (void)state;
@@ -200,6 +200,14 @@ static void the_worst_layer_is_drawn(void **state)
     const unsigned char *pixels = image->pixels;
     assert_int_equal(pixels[0], 0);
     assert_int_equal(pixels[(size_t)4 * 8], 255);
+    kiln_asset_image_destroy(&image);
+    WRITE("b.exr", GREY(H0), {"Z", FLOAT, F2, 1});
+    compare(params);
+    image = kiln_asset_image_load(NULL, "diff.png", &error);
+    assert_string_equal(error.message, "");
+    pixels = image->pixels;
+    assert_int_equal(pixels[0], 255);
+    assert_int_equal(pixels[(size_t)4 * 8], 0);
     kiln_asset_image_destroy(&image);
 }
 
