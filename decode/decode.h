@@ -148,8 +148,15 @@ struct aiScene;
 /* Sets the error that a mesh is too large; returns false. */
 bool decode_refuse_size(struct kiln_error *error);
 
-/* Makes one surface of all meshes of a scene that does not move. */
-bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
+struct decode_model;
+
+/* Makes a model of a scene of assimp that does not move. The caller finishes the model, also after
+ * a failure. */
+bool decode_assimp_model(const struct aiScene *scene, struct decode_model *model,
+                         struct kiln_error *error);
+
+/* Makes one surface of all parts of a model. */
+bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error);
 
 /* Appends all meshes of a scene that moves, and the nodes, bones and clips that move them. */

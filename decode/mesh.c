@@ -4,7 +4,8 @@
  * It is a part of the process kiln-decode. main.c calls decode_mesh_begin once and then confines
  * the process, since a mesh may be malicious. After that it calls decode_mesh for each mesh that
  * kiln sends. So decode_mesh must not open a file or a library: another file comes only through
- * mesh->open, which asks kiln for it. surface.c and skin.c turn assimp's scene into kiln's arrays.
+ * mesh->open, which asks kiln for it. assimp_model.c and skin.c take what they need from
+ * assimp's scene, and surface.c turns a model into kiln's arrays.
  *
  * The checks before the import find files for which assimp would take too much time or memory, or
  * would give no message that helps. They must stay before the import. */
@@ -21,6 +22,7 @@
 #include "base/error.h"
 #include "base/library.h"
 #include "decode.h"
+#include "model.h"
 
 /* The library of the version that the included headers describe. Every version 5.x has this name.
  */
@@ -301,11 +303,25 @@ bool decode_refuse_size(struct kiln_error *error)
                           KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
 }
 
-static bool put_scene(const struct decode_mesh *wanted, const struct aiScene *scene,
+/* Makes a surface of a scene that does not move. The scene is released before the surface takes
+ * memory. */
+static bool put_surface(const struct decode_mesh *wanted, const struct aiScene **scene,
+                        struct kiln_mesh_result *result, struct kiln_error *error)
+{
+    struct decode_model model = {0};
+    bool ok = decode_assimp_model(*scene, &model, error);
+    ai.aiReleaseImport(*scene);
+    *scene = NULL;
+    ok = ok && decode_surface(wanted, &model, result, error);
+    decode_model_finish(&model);
+    return ok;
+}
+
+static bool put_scene(const struct decode_mesh *wanted, const struct aiScene **scene,
                       struct kiln_mesh_result *result, struct kiln_error *error)
 {
-    if (!(wanted->moving ? decode_skin(wanted, scene, result, error)
-                         : decode_surface(wanted, scene, result, error)))
+    if (!(wanted->moving ? decode_skin(wanted, *scene, result, error)
+                         : put_surface(wanted, scene, result, error)))
         return false;
     const char *lacks = result->triangle_count == 0 ? "no triangles"
                         : result->vertex_count < 3  ? "no triangle with an area"
@@ -366,7 +382,7 @@ bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result
     const struct aiScene *scene =
         ai.aiImportFileExWithProperties(main_name, flags, &io, properties);
     const bool ok =
-        scene ? put_scene(mesh, scene, result, error) : explain(ai.aiGetErrorString(), error);
+        scene ? put_scene(mesh, &scene, result, error) : explain(ai.aiGetErrorString(), error);
     if (scene)
         ai.aiReleaseImport(scene);
     ai.aiReleasePropertyStore(properties);

@@ -2,13 +2,13 @@
  * file's nodes put them, adds normals where the file has none, and joins equal vertices. Assimp
  * could do that, but its sums are rounded differently on different processors. Here, sums are in
  * double, and no multiplication is fused with an addition. */
-#include <assimp/scene.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "decode.h"
+#include "model.h"
 
 /* The cosine of 50 degrees, up to which an edge between triangles is smooth. Where more than
  * MOST_CREASED triangles meet, all edges are smooth. */
@@ -17,12 +17,10 @@ enum { MOST_CREASED = 64 };
 
 enum { TABLE_SIZE = 2 * KILN_MAX_MESH_VERTICES }; /* a power of two */
 
-/* A mesh of the file as a node places it. `rows` is the matrix that takes its vertices to their
- * places. */
 struct part {
-    const struct aiMesh *mesh;
+    const struct decode_model_mesh *mesh;
     size_t order; /* position in the file */
-    double rows[3][4];
+    const double (*rows)[4];
 };
 
 struct corner {
@@ -35,7 +33,7 @@ struct surface {
     struct kiln_mesh_result *result;
     struct kiln_error *error;
     struct part *parts; /* in the order of their materials */
-    size_t part_count, part_capacity;
+    size_t part_count;
     struct corner *corners; /* three a triangle */
     size_t corner_count;
     double (*faces)[3]; /* unit normals of triangles, or 0 */
@@ -44,106 +42,30 @@ struct surface {
 
 /* ---- parts ----------------------------------------------------------------------------------- */
 
-struct placed {
-    const struct aiNode *node;
-    double rows[3][4];
-};
-
-/* Returns the placement of a node: its parent's matrix times its own. */
-static struct placed place(const struct aiNode *node, const double parent[3][4])
+/* Finds the parts that have triangles, and counts the corners. */
+static bool find_parts(struct surface *s, const struct decode_model *model)
 {
-    const struct aiMatrix4x4 *m = &node->mTransformation;
-    const double own[4][4] = {{(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
-                              {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
-                              {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4},
-                              {0, 0, 0, 1}};
-    struct placed placed = {.node = node};
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 4; column++) {
-            double sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += parent[row][k] * own[k][column];
-            placed.rows[row][column] = sum;
-        }
+    s->parts = malloc((model->part_count + 1) * sizeof *s->parts);
+    if (!s->parts)
+        return decode_out_of_memory(s->error);
+    for (size_t i = 0; i < model->part_count; i++) {
+        const struct decode_model_part *from = &model->parts[i];
+        const struct decode_model_mesh *mesh = &model->meshes[from->mesh];
+        if (mesh->triangle_count == 0)
+            continue;
+        if (mesh->triangle_count > KILN_MAX_MESH_TRIANGLES - s->corner_count / 3)
+            return decode_refuse_size(s->error);
+        s->corner_count += 3 * mesh->triangle_count;
+        s->parts[s->part_count++] = (struct part){.mesh = mesh, .order = i, .rows = from->rows};
     }
-    return placed;
-}
-
-static size_t count_triangles(const struct aiMesh *mesh)
-{
-    size_t count = 0;
-    for (unsigned i = 0; i < mesh->mNumFaces; i++)
-        count += mesh->mFaces[i].mNumIndices == 3;
-    return count;
-}
-
-/* Adds a mesh as a part, unless it has no triangle. */
-static bool add_part(struct surface *s, const struct aiMesh *mesh, const double rows[3][4])
-{
-    const size_t triangles = count_triangles(mesh);
-    if (triangles == 0)
-        return true;
-    if (triangles > KILN_MAX_MESH_TRIANGLES - s->corner_count / 3)
-        return decode_refuse_size(s->error);
-    if (s->part_count == s->part_capacity) {
-        s->part_capacity = 2 * s->part_capacity + 16;
-        struct part *more = realloc(s->parts, s->part_capacity * sizeof *more);
-        if (!more)
-            return decode_out_of_memory(s->error);
-        s->parts = more;
-    }
-    struct part *part = &s->parts[s->part_count];
-    part->mesh = mesh;
-    part->order = s->part_count++;
-    memcpy(part->rows, rows, sizeof part->rows);
-    s->corner_count += 3 * triangles;
     return true;
-}
-
-/* Grows a stack by `more` entries and returns the first of them; NULL: no memory. */
-static struct placed *push(struct placed **stack, size_t *count, size_t *capacity, size_t more)
-{
-    if (*count + more > *capacity) {
-        *capacity = 2 * (*count + more);
-        struct placed *grown = realloc(*stack, *capacity * sizeof *grown);
-        if (!grown)
-            return NULL;
-        *stack = grown;
-    }
-    *count += more;
-    return *stack + *count - more;
-}
-
-/* Adds the parts of all nodes. It walks the tree, each node before its children, without recursion,
- * since an untrusted file decides the depth. */
-static bool find_parts(struct surface *s, const struct aiScene *scene)
-{
-    static const double world[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-    struct placed *stack = NULL;
-    size_t count = 0, capacity = 0;
-    struct placed *next = push(&stack, &count, &capacity, 1);
-    if (next)
-        *next = place(scene->mRootNode, world);
-    bool ok = next || decode_out_of_memory(s->error);
-    while (ok && count > 0) {
-        const struct placed at = stack[--count];
-        const unsigned children = at.node->mNumChildren;
-        for (unsigned i = 0; ok && i < at.node->mNumMeshes; i++)
-            ok = add_part(s, scene->mMeshes[at.node->mMeshes[i]], at.rows);
-        next = push(&stack, &count, &capacity, children);
-        ok = ok && (next || decode_out_of_memory(s->error));
-        for (unsigned i = 0; ok && i < children; i++) /* the first one on top */
-            next[children - 1 - i] = place(at.node->mChildren[i], at.rows);
-    }
-    free(stack);
-    return ok;
 }
 
 /* Orders parts by material, then by their position in the file. */
 static int by_material(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
-    const unsigned first = x->mesh->mMaterialIndex, second = y->mesh->mMaterialIndex;
+    const uint32_t first = x->mesh->material, second = y->mesh->material;
     return first != second ? (first > second) - (first < second)
                            : (x->order > y->order) - (x->order < y->order);
 }
@@ -179,30 +101,28 @@ static void keep_normal(struct corner *corner, double normal[3])
         corner->normal[c] = none ? (c == 1 ? 1.0f : 0.0f) : (float)normal[c] + 0.0f;
 }
 
-static void put_corner(const struct part *part, const double cofactors[3][3], unsigned vertex,
+static void put_corner(const struct part *part, const double cofactors[3][3], uint32_t vertex,
                        struct corner *corner)
 {
-    const struct aiMesh *mesh = part->mesh;
-    const double p[3] = {(double)mesh->mVertices[vertex].x, (double)mesh->mVertices[vertex].y,
-                         (double)mesh->mVertices[vertex].z};
+    const struct decode_model_mesh *mesh = part->mesh;
+    const float *p = mesh->positions[vertex];
     for (int row = 0; row < 3; row++) {
         const double *m = part->rows[row];
-        corner->position[row] = (float)(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]) + 0.0f;
+        corner->position[row] =
+            (float)(m[0] * (double)p[0] + m[1] * (double)p[1] + m[2] * (double)p[2] + m[3]) + 0.0f;
     }
-    corner->has_normal = mesh->mNormals != NULL;
+    corner->has_normal = mesh->normals != NULL;
     if (corner->has_normal) {
-        const double n[3] = {(double)mesh->mNormals[vertex].x, (double)mesh->mNormals[vertex].y,
-                             (double)mesh->mNormals[vertex].z};
+        const float *n = mesh->normals[vertex];
         double turned[3];
         for (int row = 0; row < 3; row++) {
             const double *m = cofactors[row];
-            turned[row] = m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
+            turned[row] = m[0] * (double)n[0] + m[1] * (double)n[1] + m[2] * (double)n[2];
         }
         keep_normal(corner, turned);
     }
-    const struct aiVector3D *uvs = mesh->mTextureCoords[0];
-    corner->uv[0] = uvs ? uvs[vertex].x : 0.0f;
-    corner->uv[1] = uvs ? uvs[vertex].y : 0.0f;
+    corner->uv[0] = mesh->uvs ? mesh->uvs[vertex][0] : 0.0f;
+    corner->uv[1] = mesh->uvs ? mesh->uvs[vertex][1] : 0.0f;
 }
 
 static void put_corners(struct surface *s)
@@ -212,10 +132,9 @@ static void put_corners(struct surface *s)
         const struct part *part = &s->parts[i];
         double cofactors[3][3];
         find_cofactors(part->rows, cofactors);
-        for (unsigned k = 0; k < part->mesh->mNumFaces; k++) {
-            const struct aiFace *face = &part->mesh->mFaces[k];
-            for (int c = 0; c < 3 && face->mNumIndices == 3; c++)
-                put_corner(part, cofactors, face->mIndices[c], corner++);
+        for (size_t k = 0; k < part->mesh->triangle_count; k++) {
+            for (int c = 0; c < 3; c++)
+                put_corner(part, cofactors, part->mesh->triangles[k][c], corner++);
         }
     }
 }
@@ -389,7 +308,7 @@ static bool put_triangles(struct surface *s)
 static bool check_uvs(const struct surface *s)
 {
     for (size_t i = 0; s->wanted->uvs && i < s->part_count; i++) {
-        if (!s->parts[i].mesh->mTextureCoords[0])
+        if (!s->parts[i].mesh->uvs)
             return kiln_error_set(
                 s->error, KILN_INVALID_INPUT,
                 "the mesh, or a part of it, has no texture coordinates, which paint needs");
@@ -397,11 +316,11 @@ static bool check_uvs(const struct surface *s)
     return true;
 }
 
-bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
+bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error)
 {
     struct surface s = {.wanted = wanted, .result = result, .error = error};
-    bool ok = find_parts(&s, scene) && check_uvs(&s);
+    bool ok = find_parts(&s, model) && check_uvs(&s);
     if (ok && s.part_count > 0)
         qsort(s.parts, s.part_count, sizeof *s.parts, by_material);
     s.corners = ok && s.corner_count > 0 ? malloc(s.corner_count * sizeof *s.corners) : NULL;
