@@ -73,14 +73,20 @@ static int by_material(const void *a, const void *b)
 /* ---- corners --------------------------------------------------------------------------------- */
 
 /* Finds the cofactors of a matrix, which transform normals such that they stay perpendicular to a
- * scaled surface. */
-static void find_cofactors(const double rows[3][4], double out[3][3])
+ * scaled surface. Those of a mirroring matrix are negated, since they would turn normals inwards.
+ * Returns whether the matrix mirrors. */
+static bool find_cofactors(const double rows[3][4], double out[3][3])
 {
     for (int row = 0; row < 3; row++) {
         const double *a = rows[(row + 1) % 3], *b = rows[(row + 2) % 3];
         for (int c = 0; c < 3; c++)
             out[row][c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
     }
+    const double determinant =
+        rows[0][0] * out[0][0] + rows[0][1] * out[0][1] + rows[0][2] * out[0][2];
+    for (int i = 0; i < 9 && determinant < 0; i++)
+        out[i / 3][i % 3] = -out[i / 3][i % 3];
+    return determinant < 0;
 }
 
 /* Scales a vector to length 1, or to 0 where it has no direction. */
@@ -131,10 +137,14 @@ static void put_corners(struct surface *s)
     for (size_t i = 0; i < s->part_count; i++) {
         const struct part *part = &s->parts[i];
         double cofactors[3][3];
-        find_cofactors(part->rows, cofactors);
+        /* the corners of a mirrored triangle take another order, so that its front stays in front
+         */
+        const int second = find_cofactors(part->rows, cofactors) ? 2 : 1;
         for (size_t k = 0; k < part->mesh->triangle_count; k++) {
-            for (int c = 0; c < 3; c++)
-                put_corner(part, cofactors, part->mesh->triangles[k][c], corner++);
+            const uint32_t *triangle = part->mesh->triangles[k];
+            put_corner(part, cofactors, triangle[0], corner++);
+            put_corner(part, cofactors, triangle[second], corner++);
+            put_corner(part, cofactors, triangle[3 - second], corner++);
         }
     }
 }

@@ -234,6 +234,60 @@ static void buffers_elsewhere_are_refused(void **state)
         "the mesh file names the file 't.bin'; a file of this name must not name other files");
 }
 
+/* A tetrahedron around the origin, whose volume is 8/3, under a node with a scale; its normals,
+ * which a primitive may take, are its positions. */
+static const char MIRRORED[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}],"
+    " \"nodes\": [{\"mesh\": 0, \"scale\": [%s]}],"
+    " \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0%s}, \"indices\": 1}]}],"
+    " \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4,"
+    " \"type\": \"VEC3\", \"min\": [-1, -1, -1], \"max\": [1, 1, 1]},"
+    " {\"bufferView\": 1, \"componentType\": 5123, \"count\": 12, \"type\": \"SCALAR\"},"
+    " {\"bufferView\": 2, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}],"
+    " \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48},"
+    " {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 24},"
+    " {\"buffer\": 0, \"byteOffset\": 72, \"byteLength\": 48}],"
+    " \"buffers\": [{\"byteLength\": 120, \"uri\": "
+    "\"data:application/octet-stream;base64,AACAPwAAgD8AAIA/AACAvwAAgL8AAIA/A"
+    "ACAvwAAgD8AAIC/AACAPwAAgL8AAIC/AAACAAEAAAABAAMAAAADAAIAAQACAAMAOs0TPzr"
+    "NEz86zRM/Os0TvzrNE786zRM/Os0TvzrNEz86zRO/Os0TPzrNE786zRO/\"}]}";
+
+/* A mesh under a node that mirrors it faces outwards: its volume by the divergence theorem is that
+ * of the file's tetrahedron, with its sign, and normals point outwards, computed or from the file.
+ */
+static void mirrored_nodes_are_not_inside_out(void **state)
+{
+    static const char *const scales[] = {"-1, 1, 1", "1, -1.1, 0.9090909", "-1, -1, -1"};
+    static const char *const normals[] = {"", ", \"NORMAL\": 2"};
+    (void)state;
+    for (size_t i = 0; i < 6; i++) {
+        char text[4096];
+        snprintf(text, sizeof text, MIRRORED, scales[i % 3], normals[i / 3]);
+        struct kiln_mesh *mesh = parse(text, "mirrored.gltf");
+        double volume = 0;
+        for (uint32_t k = 0; k < mesh->triangle_count; k++) {
+            const float *p = mesh->vertices[mesh->triangles[k][0]];
+            const float *q = mesh->vertices[mesh->triangles[k][1]];
+            const float *r = mesh->vertices[mesh->triangles[k][2]];
+            double cross[3];
+            for (int c = 0; c < 3; c++) {
+                const int d = (c + 1) % 3, e = (c + 2) % 3;
+                cross[c] = (double)(q[d] - p[d]) * (double)(r[e] - p[e]) -
+                           (double)(q[e] - p[e]) * (double)(r[d] - p[d]);
+                volume += cross[c] * (double)p[c] / 6;
+            }
+            for (int v = 0; v < 3; v++) {
+                const float *n = mesh->vertices[mesh->triangles[k][v]] + 3;
+                assert_true(cross[0] * (double)n[0] + cross[1] * (double)n[1] +
+                                cross[2] * (double)n[2] >
+                            0);
+            }
+        }
+        assert_true(fabs(volume - 8.0 / 3) < 1e-5);
+        kiln_mesh_destroy(&mesh);
+    }
+}
+
 /* ---- what is no mesh ------------------------------------------------------------------------- */
 
 static void numbers_need_no_zero_before_their_point(void **state)
@@ -373,6 +427,7 @@ int main(void)
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(buffers_elsewhere_are_refused, test_enter_folder,
                                         test_leave_folder),
+        cmocka_unit_test(mirrored_nodes_are_not_inside_out),
         cmocka_unit_test(numbers_need_no_zero_before_their_point),
         cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(cut_files_are_refused),
