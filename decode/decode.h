@@ -33,9 +33,9 @@ struct decode_picture {
     bool sky;               /* the picture shows all directions, by longitude and latitude */
     bool raw;               /* the numbers are data: they are neither turned nor converted */
     uint32_t width, height; /* set when the size is known */
-    /* set: only a process of kind KILN_DECODE_PROFILE can show it; of an EXR, one of kind
-     * KILN_DECODE_OPENEXR */
-    bool needs_profile;
+    /* set: only a process of another kind can show it: one of kind KILN_DECODE_OPENEXR an EXR, one
+     * of kind KILN_DECODE_PROFILE any other file */
+    bool needs_other;
     uint32_t page;  /* which page is wanted; 0: the first */
     uint32_t pages; /* of the file; 1, unless the reader sets it */
     struct kiln_error *error;

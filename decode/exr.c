@@ -311,8 +311,8 @@ static bool read_pixels(struct exr_reading *reading)
         return false;
     if (!deep && !needs_more(reading, compression))
         return make_planes(reading) && decode_exr_pixels(reading);
-    reading->picture->needs_profile = !decode_exr_more_is_ready();
-    if (reading->picture->needs_profile)
+    reading->picture->needs_other = !decode_exr_more_is_ready();
+    if (reading->picture->needs_other)
         return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
                               "the EXR image needs OpenEXR's C++");
     return make_planes(reading) && decode_exr_more(reading, deep);

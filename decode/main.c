@@ -215,8 +215,8 @@ static void serve_picture(enum kiln_decode_kind kind, const struct kiln_decode_r
     free(bytes);
     if (image)
         send_image(image, picture.pages);
-    else if (picture.needs_profile)
-        send_text(KILN_DECODE_NEEDS_PROFILE, "");
+    else if (picture.needs_other)
+        send_text(KILN_DECODE_NEEDS_OTHER, "");
     else
         send_failure(&error, &picture);
     kiln_asset_image_destroy(&image);

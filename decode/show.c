@@ -133,8 +133,8 @@ static enum shown show_profile(struct decode_picture *picture, struct kiln_asset
     case DECODE_PROFILE_COLOR:
         return show_color(&color, image);
     case DECODE_PROFILE_TABLES:
-        picture->needs_profile = !decode_profile_is_ready();
-        return picture->needs_profile ? FAILED : convert(image, meaning, NULL);
+        picture->needs_other = !decode_profile_is_ready();
+        return picture->needs_other ? FAILED : convert(image, meaning, NULL);
     }
     return UNKNOWN;
 }
@@ -160,7 +160,7 @@ bool decode_show(struct decode_picture *picture, struct kiln_asset_image *image,
         show_plain_ink(image);
     if (meaning->ink)
         put_alpha(image, meaning->ink_alpha);
-    if (picture->needs_profile)
+    if (picture->needs_other)
         return kiln_error_set(picture->error, KILN_INVALID_INPUT,
                               "a colour profile with tables cannot be applied to an animation");
     return (shown != FAILED && (picture->raw || decode_turn(image, meaning->orientation))) ||

@@ -107,25 +107,25 @@ static enum kiln_decode_kind other_kind(enum kiln_decode_kind kind)
                                                                   : KILN_DECODE_PROFILE;
 }
 
-/* Lets a process of a kind decode an open file. *needs_profile is set if only one of the other kind
+/* Lets a process of a kind decode an open file. *needs_other is set if only one of the other kind
  * can. */
 static struct kiln_asset_image *ask(struct kiln_received *received, enum kiln_decode_kind kind,
                                     const struct kiln_decode_request *request, int file,
-                                    bool *needs_profile, struct kiln_error *error)
+                                    bool *needs_other, struct kiln_error *error)
 {
     received->helper = kiln_loader_take(received->loader, kind, error);
     if (!received->helper)
         return NULL;
     /* A process of the other kind needs no further one, unless a file has taken it over. */
-    const unsigned other = kind == other_kind(kind) ? 0 : 1u << KILN_DECODE_NEEDS_PROFILE;
+    const unsigned other = kind == other_kind(kind) ? 0 : 1u << KILN_DECODE_NEEDS_OTHER;
     const unsigned expected = 1u << KILN_DECODE_PIXELS | other;
     struct kiln_error reason = {0};
     struct kiln_asset_image *image = NULL;
-    received->needs_profile = false;
+    received->needs_other = false;
     if (kiln_helper_send(received->helper, request, sizeof *request, file, &reason))
         image = kiln_received_image(received, expected, &reason);
-    *needs_profile = received->needs_profile;
-    if (!image && !*needs_profile)
+    *needs_other = received->needs_other;
+    if (!image && !*needs_other)
         kiln_received_fail(received, &reason, error);
     kiln_loader_give_back(received->loader, &received->helper);
     return image;
@@ -158,10 +158,10 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
         return NULL;
     }
     request.most_pixels = kiln_received_most_pixels(loader);
-    bool needs_profile = false;
-    struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_profile, error);
-    if (needs_profile)
-        image = ask(&received, other_kind(kind), &request, file, &needs_profile, error);
+    bool needs_other = false;
+    struct kiln_asset_image *image = ask(&received, kind, &request, file, &needs_other, error);
+    if (needs_other)
+        image = ask(&received, other_kind(kind), &request, file, &needs_other, error);
     return image;
 }
 

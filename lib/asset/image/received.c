@@ -69,7 +69,7 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
                                              expected, &answer, reason);
     if (answer.what == KILN_DECODE_FAILED && answer.code == KILN_OVER_LIMIT)
         received->refused = (uint64_t)answer.width * answer.height;
-    received->needs_profile = answered && answer.what == KILN_DECODE_NEEDS_PROFILE;
+    received->needs_other = answered && answer.what == KILN_DECODE_NEEDS_OTHER;
     if (!answered || answer.what != KILN_DECODE_PIXELS)
         return NULL;
     struct kiln_asset_image *image = calloc(1, sizeof *image);

@@ -11,8 +11,8 @@ struct kiln_received {
     bool finite;      /* true: pixels that are not finite are an error */
     /* pixels that the budget has counted already: those of the largest frame so far */
     uint64_t counted;
-    uint64_t refused;   /* result: pixels of a picture that the budget has no room for */
-    bool needs_profile; /* result: the answer was KILN_DECODE_NEEDS_PROFILE */
+    uint64_t refused; /* result: pixels of a picture that the budget has no room for */
+    bool needs_other; /* result: the answer was KILN_DECODE_NEEDS_OTHER */
 };
 
 /* Returns how many pixels the budget of a scene has left, at most the limit of one image. */

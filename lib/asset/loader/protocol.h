@@ -84,9 +84,9 @@ enum kiln_decode_what {
     /* Describes a mesh. Its arrays follow, as kiln_mesh_visit_arrays lists them. */
     KILN_DECODE_MESH_MADE,
 
-    /* Only a process of kind KILN_DECODE_PROFILE can decode the picture; of an EXR, one of kind
-     * KILN_DECODE_OPENEXR. */
-    KILN_DECODE_NEEDS_PROFILE,
+    /* Only a process of another kind can decode the picture: one of kind KILN_DECODE_OPENEXR an
+     * EXR, one of kind KILN_DECODE_PROFILE any other file. */
+    KILN_DECODE_NEEDS_OTHER,
 };
 
 struct kiln_decode_answer {
