@@ -26,9 +26,12 @@ pkg_check_modules(KILN_CGLM cglm)
 # start of kiln; only the module kiln-openexr.so links it (decode/exr_module.cc).
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
+# Only the module kiln-draco.so links Draco (decode/draco_module.cc).
+pkg_check_modules(KILN_DRACO draco)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR
    NOT KILN_FFMPEG_FOUND OR NOT KILN_PICTURES_FOUND OR NOT KILN_SECCOMP_FOUND OR NOT KILN_DEFLATE_FOUND OR
-   NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
+   NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE OR
+   NOT KILN_DRACO_FOUND)
     message(FATAL_ERROR "A library is missing; run tools/setup to install all that kiln needs.")
 endif()
 add_library(kiln_dependencies INTERFACE)

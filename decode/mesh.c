@@ -53,50 +53,6 @@ bool decode_mesh_begin(struct kiln_error *error)
 
 /* ---- checks of the contents ------------------------------------------------------------------ */
 
-enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
-
-/* Returns the JSON text of a glTF or GLB file. GLB chunks are padded with spaces, or by some
- * programs with zeros. */
-const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size)
-{
-    const unsigned char *bytes = mesh->bytes;
-    const size_t start = mesh->format == KILN_MESH_GLB ? GLB_HEADER + CHUNK_HEADER : 0;
-    *size = mesh->size - start;
-    if (start > 0) {
-        const unsigned char *b = bytes + GLB_HEADER; /* header of the first chunk: length, type */
-        const size_t length = b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
-        *size = length < *size ? length : *size;
-    }
-    while (*size > 0 && bytes[start + *size - 1] == '\0')
-        --*size;
-    return (const char *)bytes + start;
-}
-
-/* Checks how deep the JSON of a glTF file is nested. Assimp copies what is nested in "extras" twice
- * for each level, so the time doubles with each level, and an import of 64 levels never ends. */
-static bool check_depth(const struct decode_mesh *mesh, struct kiln_error *error)
-{
-    enum { MOST = 20 };
-    size_t size, depth = 0, deepest = 0;
-    const char *json = decode_mesh_json(mesh, &size);
-    bool quoted = false;
-    for (size_t i = 0; i < size; i++) {
-        if (quoted && json[i] == '\\')
-            i++;
-        else if (json[i] == '"')
-            quoted = !quoted;
-        else if (!quoted && (json[i] == '{' || json[i] == '['))
-            depth++;
-        else if (!quoted && (json[i] == '}' || json[i] == ']') && depth > 0)
-            depth--;
-        deepest = depth > deepest ? depth : deepest;
-    }
-    return deepest <= MOST ||
-           kiln_error_set(error, KILN_INVALID_INPUT,
-                          "the JSON is nested %zu levels deep; at most %d are allowed", deepest,
-                          MOST);
-}
-
 /* Checks the size of an OBJ, which has a line for each vertex and each polygon, so that one that is
  * too large is refused before assimp spends time on it. */
 static bool check_lines(const struct decode_mesh *mesh, struct kiln_error *error)
@@ -131,9 +87,11 @@ static bool check_contents(const struct decode_mesh *mesh, struct kiln_error *er
         return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file is empty");
     switch (mesh->format) {
     case KILN_MESH_GLB:
-        good = mesh->size >= GLB_HEADER + CHUNK_HEADER && memcmp(bytes, "glTF", 4) == 0;
+        good = mesh->size >= 4 && memcmp(bytes, "glTF", 4) == 0;
         break;
     case KILN_MESH_GLTF:
+        if (mesh->size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
+            start = 3; /* a byte order mark */
         while (start < mesh->size && bytes[start] && strchr(" \t\r\n", bytes[start]))
             start++;
         good = start < mesh->size && bytes[start] == '{';
@@ -146,7 +104,7 @@ static bool check_contents(const struct decode_mesh *mesh, struct kiln_error *er
         return kiln_error_set(error, KILN_INVALID_INPUT,
                               "the contents of the file are not those of a %s file",
                               extensions[mesh->format]);
-    return mesh->format == KILN_MESH_OBJ ? check_lines(mesh, error) : check_depth(mesh, error);
+    return mesh->format != KILN_MESH_OBJ || check_lines(mesh, error);
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
@@ -287,11 +245,7 @@ static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char 
         return NULL;
     if (strcmp(name, files->main_name) == 0)
         return open_main(mesh);
-    if (mesh->format != KILN_MESH_GLTF || !mesh->open)
-        return NULL; /* such as the materials of an OBJ, which kiln does not use */
-    size_t size = 0;
-    unsigned char *bytes = mesh->open(mesh->user, name, &size);
-    return bytes ? open_bytes(bytes, size, bytes) : NULL;
+    return NULL; /* such as the materials of an OBJ, which kiln does not use */
 }
 
 /* ---- the mesh -------------------------------------------------------------------------------- */
@@ -315,18 +269,6 @@ static bool put_surface(const struct decode_mesh *wanted, const struct aiScene *
     ok = ok && decode_surface(wanted, &model, result, error);
     decode_model_finish(&model);
     return ok;
-}
-
-static bool put_scene(const struct decode_mesh *wanted, const struct aiScene **scene,
-                      struct kiln_mesh_result *result, struct kiln_error *error)
-{
-    if (!(wanted->moving ? decode_skin(wanted, *scene, result, error)
-                         : put_surface(wanted, scene, result, error)))
-        return false;
-    const char *lacks = result->triangle_count == 0 ? "no triangles"
-                        : result->vertex_count < 3  ? "no triangle with an area"
-                                                    : NULL;
-    return !lacks || kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has %s", lacks);
 }
 
 /* Tells assimp which components of the file to drop, because kiln does not use them. */
@@ -357,19 +299,15 @@ static bool explain(const char *said, struct kiln_error *error)
                               "the mesh has no triangles, only points or lines");
     if (strstr(said, "no faces"))
         return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has no triangles");
-    if (strstr(said, "No suitable reader"))
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "the mesh is broken, or of a version of glTF that cannot be read; "
-                              "allowed are 2, and 1 as .gltf");
     return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh is broken: %.300s", said);
 }
 
-bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
-                 struct kiln_error *error)
+static bool decode_obj(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
+                       struct kiln_error *error)
 {
     char main_name[16];
-    if (!check_contents(mesh, error))
-        return false;
+    if (mesh->moving)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "the file has no animation");
     snprintf(main_name, sizeof main_name, "mesh%s", extensions[mesh->format]);
     const struct files files = {.mesh = mesh, .main_name = main_name};
     struct aiFileIO io = {
@@ -382,9 +320,23 @@ bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result
     const struct aiScene *scene =
         ai.aiImportFileExWithProperties(main_name, flags, &io, properties);
     const bool ok =
-        scene ? put_scene(mesh, &scene, result, error) : explain(ai.aiGetErrorString(), error);
+        scene ? put_surface(mesh, &scene, result, error) : explain(ai.aiGetErrorString(), error);
     if (scene)
         ai.aiReleaseImport(scene);
     ai.aiReleasePropertyStore(properties);
     return ok;
+}
+
+bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result, bool *needs_other,
+                 struct kiln_error *error)
+{
+    *needs_other = false;
+    if (!check_contents(mesh, error) ||
+        !(mesh->format == KILN_MESH_OBJ ? decode_obj(mesh, result, error)
+                                        : decode_gltf(mesh, result, needs_other, error)))
+        return false;
+    const char *lacks = result->triangle_count == 0 ? "no triangles"
+                        : result->vertex_count < 3  ? "no triangle with an area"
+                                                    : NULL;
+    return !lacks || kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has %s", lacks);
 }

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "kiln.h"
+
 /* Triangles that have one material. Corners are numbers of vertices, and vertices need not differ.
  */
 struct decode_model_mesh {
@@ -33,5 +35,15 @@ struct decode_model {
 };
 
 void decode_model_finish(struct decode_model *model);
+
+/* A corner of a triangle. */
+struct decode_corner {
+    float position[3], normal[3], uv[2];
+    bool has_normal;
+};
+
+/* Computes the normals of corners that have none, of three corners a triangle: edges up to 50
+ * degrees are smooth, others are creases (surface.c). */
+bool decode_find_normals(struct decode_corner *corners, size_t count, struct kiln_error *error);
 
 #endif

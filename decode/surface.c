@@ -23,18 +23,13 @@ struct part {
     const double (*rows)[4];
 };
 
-struct corner {
-    float position[3], normal[3], uv[2];
-    bool has_normal;
-};
-
 struct surface {
     const struct decode_mesh *wanted;
     struct kiln_mesh_result *result;
     struct kiln_error *error;
     struct part *parts; /* in the order of their materials */
     size_t part_count;
-    struct corner *corners; /* three a triangle */
+    struct decode_corner *corners; /* three a triangle */
     size_t corner_count;
     double (*faces)[3]; /* unit normals of triangles, or 0 */
     double *angles;     /* of triangles at their corners, radians */
@@ -99,7 +94,7 @@ static void normalize(double v[3])
 }
 
 /* Stores a corner's normal; one without a direction points upwards. */
-static void keep_normal(struct corner *corner, double normal[3])
+static void keep_normal(struct decode_corner *corner, double normal[3])
 {
     normalize(normal);
     const bool none = normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
@@ -108,7 +103,7 @@ static void keep_normal(struct corner *corner, double normal[3])
 }
 
 static void put_corner(const struct part *part, const double cofactors[3][3], uint32_t vertex,
-                       struct corner *corner)
+                       struct decode_corner *corner)
 {
     const struct decode_model_mesh *mesh = part->mesh;
     const float *p = mesh->positions[vertex];
@@ -133,7 +128,7 @@ static void put_corner(const struct part *part, const double cofactors[3][3], ui
 
 static void put_corners(struct surface *s)
 {
-    struct corner *corner = s->corners;
+    struct decode_corner *corner = s->corners;
     for (size_t i = 0; i < s->part_count; i++) {
         const struct part *part = &s->parts[i];
         double cofactors[3][3];
@@ -162,7 +157,7 @@ static double angle_of(double cosine)
 }
 
 /* Finds two edges of a triangle, from one of its corners to the next one and to the one before. */
-static void find_edges(const struct corner triangle[3], int corner, double a[3], double b[3])
+static void find_edges(const struct decode_corner triangle[3], int corner, double a[3], double b[3])
 {
     const float *at = triangle[corner].position;
     for (int c = 0; c < 3; c++) {
@@ -272,10 +267,17 @@ static bool find_normals(struct surface *s)
     return ok || decode_out_of_memory(s->error);
 }
 
+bool decode_find_normals(struct decode_corner *corners, size_t count, struct kiln_error *error)
+{
+    struct surface s = {.corners = corners, .corner_count = count, .error = error};
+    return find_normals(&s);
+}
+
 /* ---- vertices -------------------------------------------------------------------------------- */
 
 /* Finds the number of a corner's vertex, which is an equal vertex or a new one. */
-static bool join(struct surface *s, uint32_t *table, const struct corner *corner, uint32_t *number)
+static bool join(struct surface *s, uint32_t *table, const struct decode_corner *corner,
+                 uint32_t *number)
 {
     struct kiln_mesh_result *result = s->result;
     const bool uvs = s->wanted->uvs;

@@ -33,7 +33,7 @@ static inline void check_skin(const struct kiln_skin *skin)
     const float length = kiln_skin_clip_length(skin, 0);
     for (int i = 0; i < 4; i++) {
         check_mesh(mesh);
-        kiln_skin_pose_mesh(skin, 0, length * (float)i / 3.0f, mesh);
+        kiln_skin_pose_mesh(skin, scratch, 0, length * (float)i / 3.0f, mesh);
     }
     check_mesh(mesh);
     kiln_mesh_destroy(&mesh);

@@ -34,6 +34,9 @@ struct kiln_mesh {
     /* SHA-256, in hex, of the hashes of the files that were read. Hashes of scenes and of their
      * motion contain it, so it may depend on nothing but the content of the files. */
     char hash[65];
+    /* what of the file was changed or left out, for the user: a line each, none at the end; "":
+     * nothing was */
+    char notes[KILN_MESSAGE_SIZE];
 };
 
 /* Loads a file whose name ends in .obj, .gltf or .glb. Files that it names must lie in its folder
