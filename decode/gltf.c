@@ -85,8 +85,8 @@ static const char *const supported[] = {
  * which changes where vertices are. Such extensions are called after what they concern. */
 static bool is_of_looks(const char *name)
 {
-    static const char *const words[] = {"material", "texture", "light", "techniques", "environment",
-                                        "metadata", "xmp",     "audio", "mdl",        "packing"};
+    static const char *const words[] = {"material", "texture", "light", "technique", "environment",
+                                        "metadata", "xmp",     "audio", "mdl",       "packing"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (strcasestr(name, words[i]))
             return true;
@@ -132,6 +132,8 @@ static bool check_extensions(struct gltf *g)
 
 static bool refuse_version(const struct gltf *g, const char *found)
 {
+    if (strcmp(found, "1.0") == 0 || strcmp(found, "1.1") == 0)
+        found = "1";
     return GLTF_SET(g,
                     "the file is of glTF version %.20s; kiln reads version 2, to which Blender "
                     "or another program converts it",

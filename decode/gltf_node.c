@@ -319,15 +319,6 @@ static bool read_instances(struct gltf *g, uint32_t attributes, const char *key,
     return *values != NULL;
 }
 
-/* Scales a quaternion to length 1; one without a direction becomes no rotation. */
-static void normalize_turn(double q[4])
-{
-    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    const bool good = length > 1e-6 && length < 1e6;
-    for (int c = 0; c < 4; c++)
-        q[c] = good ? q[c] / length : c == 3;
-}
-
 static void place_instances(const float *moves, const float *turns, const float *scales,
                             struct gltf_instances *instances)
 {
@@ -339,7 +330,6 @@ static void place_instances(const float *moves, const float *turns, const float 
         }
         for (size_t c = 0; turns && c < 4; c++)
             pose.turn[c] = (double)turns[4 * i + c];
-        normalize_turn(pose.turn);
         gltf_compose(&pose, instances->rows[i]);
     }
 }

@@ -299,9 +299,9 @@ static void numbers_need_no_zero_before_their_point(void **state)
     kiln_mesh_destroy(&mesh);
 }
 
-#define BROKEN_GLTF                                                                                \
-    "the mesh is broken, or of a version of glTF that cannot be read; allowed are 2, and 1 as "    \
-    ".gltf"
+#define FIRST_GLTF                                                                                 \
+    "the file is of glTF version 1; kiln reads version 2, to which Blender or another program "    \
+    "converts it"
 
 static void nonsense_is_refused(void **state)
 {
@@ -323,8 +323,15 @@ static void nonsense_is_refused(void **state)
                 "vertex 1 lies at 1e+09 0 0; allowed are numbers within -1e+06 and 1e+06");
     refuse_text("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", "flat.obj",
                 "the mesh has no triangle with an area");
-    refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", BROKEN_GLTF);
-    refuse_text("{}", "none.gltf", BROKEN_GLTF);
+    refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", "the JSON is cut short");
+    refuse_text("{\"asset\": {\"version\": \"2.0\"},\n\n nodes: []}", "yaml.gltf",
+                "line 3 of the JSON is broken");
+    refuse_text("{}", "none.gltf",
+                "the file does not say of which version of glTF it is: 'asset.version' is missing; "
+                "allowed is \"2.0\"");
+    refuse_text("{\"asset\": {\"version\": \"1.0\"}}", "first.gltf", FIRST_GLTF);
+    refuse_text("{\"meshes\": {\"mesh\": {}}}", "oldest.gltf", FIRST_GLTF);
+    refuse("glTF\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 20, "first.glb", FIRST_GLTF);
 }
 
 static void cut_files_are_refused(void **state)
@@ -344,8 +351,13 @@ static void cut_files_are_refused(void **state)
     assert_non_null(mesh);
     assert_int_equal(mesh->triangle_count, 4);
     kiln_mesh_destroy(&mesh);
-    for (int i = 1; i < 8; i++)
-        refuse(glb, (size_t)(size * i / 8), "cut.glb", BROKEN_GLTF);
+    for (int i = 1; i < 8; i++) {
+        char reason[128];
+        const long left = size * i / 8;
+        snprintf(reason, sizeof reason,
+                 "the file is cut short: it has %ld bytes, and its header says %ld", left, size);
+        refuse(glb, (size_t)left, "cut.glb", reason);
+    }
     free(glb);
 }
 
