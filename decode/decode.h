@@ -155,6 +155,10 @@ struct decode_model;
 bool decode_assimp_model(const struct aiScene *scene, struct decode_model *model,
                          struct kiln_error *error);
 
+/* Read a file in which nothing moves. The caller finishes the model, also after a failure. */
+bool decode_obj(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
+
 /* Makes one surface of all parts of a model. */
 bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error);

@@ -1,5 +1,6 @@
-/* This file imports meshes by assimp, which is opened here and nowhere else. Assimp reads through
- * callbacks, which serve the file itself and, for glTF, the buffers that kiln opens.
+/* This file finds the reader of a mesh by its format. glTF is imported by assimp, which is opened
+ * here and nowhere else. Assimp reads through callbacks, which serve the file itself and the
+ * buffers that kiln opens.
  *
  * It is a part of the process kiln-decode. main.c calls decode_mesh_begin once and then confines
  * the process, since a mesh may be malicious. After that it calls decode_mesh for each mesh that
@@ -97,56 +98,26 @@ static bool check_depth(const struct decode_mesh *mesh, struct kiln_error *error
                           MOST);
 }
 
-/* Checks the size of an OBJ, which has a line for each vertex and each polygon, so that one that is
- * too large is refused before assimp spends time on it. */
-static bool check_lines(const struct decode_mesh *mesh, struct kiln_error *error)
-{
-    const char *line = mesh->bytes, *end = line + mesh->size;
-    size_t vertices = 0, faces = 0;
-    while (line && end - line >= 2) {
-        vertices += line[0] == 'v' && line[1] == ' ';
-        faces += line[0] == 'f' && line[1] == ' ';
-        line = memchr(line, '\n', (size_t)(end - line));
-        line = line ? line + 1 : NULL;
-    }
-    if (vertices <= KILN_MAX_MESH_VERTICES && faces <= KILN_MAX_MESH_TRIANGLES)
-        return true;
-    return kiln_error_set(error, KILN_INVALID_INPUT,
-                          "the mesh has %zu vertices and %zu faces; allowed are %d vertices and %d "
-                          "triangles",
-                          vertices, faces, KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
-}
+static const char *const extensions[] = {[KILN_MESH_GLTF] = ".gltf", [KILN_MESH_GLB] = ".glb"};
 
-static const char *const extensions[] = {
-    [KILN_MESH_OBJ] = ".obj", [KILN_MESH_GLTF] = ".gltf", [KILN_MESH_GLB] = ".glb"};
-
-/* Checks that the contents fit the format. Assimp picks its importer by the suffix of the name that
- * it is given, so the contents must at least begin as that format does. */
+/* Checks that the contents of a glTF file begin as those of its form do. */
 static bool check_contents(const struct decode_mesh *mesh, struct kiln_error *error)
 {
     const unsigned char *bytes = mesh->bytes;
     size_t start = 0;
     bool good = false;
-    if (mesh->size == 0)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file is empty");
-    switch (mesh->format) {
-    case KILN_MESH_GLB:
+    if (mesh->format == KILN_MESH_GLB) {
         good = mesh->size >= GLB_HEADER + CHUNK_HEADER && memcmp(bytes, "glTF", 4) == 0;
-        break;
-    case KILN_MESH_GLTF:
+    } else {
         while (start < mesh->size && bytes[start] && strchr(" \t\r\n", bytes[start]))
             start++;
         good = start < mesh->size && bytes[start] == '{';
-        break;
-    case KILN_MESH_OBJ:
-        good = !memchr(bytes, '\0', mesh->size);
-        break;
     }
     if (!good)
         return kiln_error_set(error, KILN_INVALID_INPUT,
                               "the contents of the file are not those of a %s file",
                               extensions[mesh->format]);
-    return mesh->format == KILN_MESH_OBJ ? check_lines(mesh, error) : check_depth(mesh, error);
+    return check_depth(mesh, error);
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
@@ -239,45 +210,6 @@ static struct aiFile *open_bytes(const void *bytes, size_t size, unsigned char *
     return file;
 }
 
-/* Returns whether a number such as ".5" starts at byte i, which is not the first one. */
-static bool lacks_zero(const char *bytes, size_t i)
-{
-    return bytes[i] == '.' && (bytes[i - 1] == ' ' || bytes[i - 1] == '\t');
-}
-
-/* Returns the bytes of an OBJ in which numbers such as ".5" are written "0.5": assimp does not read
- * ".5" as a number, and skips a vertex with such a number. If there is no such number, these are
- * the bytes of the mesh itself; otherwise they are a copy, which *owned also points to. NULL when
- * memory is short. */
-static const char *spell_numbers(const struct decode_mesh *mesh, size_t *size,
-                                 unsigned char **owned)
-{
-    const char *bytes = mesh->bytes;
-    size_t lacking = 0, end = 0;
-    for (size_t i = 1; i < mesh->size; i++)
-        lacking += lacks_zero(bytes, i);
-    *size = mesh->size + lacking;
-    if (lacking == 0)
-        return bytes;
-    *owned = malloc(*size);
-    for (size_t i = 0; *owned && i < mesh->size; i++) {
-        if (i > 0 && lacks_zero(bytes, i))
-            (*owned)[end++] = '0';
-        (*owned)[end++] = (unsigned char)bytes[i];
-    }
-    return (const char *)*owned;
-}
-
-/* Opens the mesh file itself. */
-static struct aiFile *open_main(const struct decode_mesh *mesh)
-{
-    unsigned char *owned = NULL;
-    size_t size = mesh->size;
-    const char *bytes =
-        mesh->format == KILN_MESH_OBJ ? spell_numbers(mesh, &size, &owned) : mesh->bytes;
-    return bytes ? open_bytes(bytes, size, owned) : NULL;
-}
-
 /* Opens a file for assimp: the mesh under its made-up name, or a buffer of a glTF through kiln. */
 static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char *mode)
 {
@@ -286,25 +218,17 @@ static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char 
     if (mode[0] != 'r')
         return NULL;
     if (strcmp(name, files->main_name) == 0)
-        return open_main(mesh);
+        return open_bytes(mesh->bytes, mesh->size, NULL);
     if (mesh->format != KILN_MESH_GLTF || !mesh->open)
-        return NULL; /* such as the materials of an OBJ, which kiln does not use */
+        return NULL;
     size_t size = 0;
     unsigned char *bytes = mesh->open(mesh->user, name, &size);
     return bytes ? open_bytes(bytes, size, bytes) : NULL;
 }
 
-/* ---- the mesh -------------------------------------------------------------------------------- */
+/* ---- the import ------------------------------------------------------------------------------ */
 
-bool decode_refuse_size(struct kiln_error *error)
-{
-    return kiln_error_set(error, KILN_INVALID_INPUT,
-                          "the mesh is too large; allowed are %d vertices and %d triangles",
-                          KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
-}
-
-/* Makes a surface of a scene that does not move. The scene is released before the surface takes
- * memory. */
+/* Makes a surface of assimp's scene. The scene is released before the surface takes memory. */
 static bool put_surface(const struct decode_mesh *wanted, const struct aiScene **scene,
                         struct kiln_mesh_result *result, struct kiln_error *error)
 {
@@ -315,18 +239,6 @@ static bool put_surface(const struct decode_mesh *wanted, const struct aiScene *
     ok = ok && decode_surface(wanted, &model, result, error);
     decode_model_finish(&model);
     return ok;
-}
-
-static bool put_scene(const struct decode_mesh *wanted, const struct aiScene **scene,
-                      struct kiln_mesh_result *result, struct kiln_error *error)
-{
-    if (!(wanted->moving ? decode_skin(wanted, *scene, result, error)
-                         : put_surface(wanted, scene, result, error)))
-        return false;
-    const char *lacks = result->triangle_count == 0 ? "no triangles"
-                        : result->vertex_count < 3  ? "no triangle with an area"
-                                                    : NULL;
-    return !lacks || kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has %s", lacks);
 }
 
 /* Tells assimp which components of the file to drop, because kiln does not use them. */
@@ -364,8 +276,9 @@ static bool explain(const char *said, struct kiln_error *error)
     return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh is broken: %.300s", said);
 }
 
-bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
-                 struct kiln_error *error)
+/* Imports a glTF file by assimp. */
+static bool import(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
+                   struct kiln_error *error)
 {
     char main_name[16];
     if (!check_contents(mesh, error))
@@ -381,10 +294,52 @@ bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result
                            aiProcess_Triangulate | aiProcess_SortByPType;
     const struct aiScene *scene =
         ai.aiImportFileExWithProperties(main_name, flags, &io, properties);
-    const bool ok =
-        scene ? put_scene(mesh, &scene, result, error) : explain(ai.aiGetErrorString(), error);
+    const bool ok = !scene         ? explain(ai.aiGetErrorString(), error)
+                    : mesh->moving ? decode_skin(mesh, scene, result, error)
+                                   : put_surface(mesh, &scene, result, error);
     if (scene)
         ai.aiReleaseImport(scene);
     ai.aiReleasePropertyStore(properties);
     return ok;
+}
+
+/* ---- the mesh -------------------------------------------------------------------------------- */
+
+bool decode_refuse_size(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "the mesh is too large; allowed are %d vertices and %d triangles",
+                          KILN_MAX_MESH_VERTICES, KILN_MAX_MESH_TRIANGLES);
+}
+
+typedef bool read_model(const struct decode_mesh *wanted, struct decode_model *model,
+                        struct kiln_error *error);
+
+/* The readers of formats in which nothing moves. */
+static read_model *const readers[] = {[KILN_MESH_OBJ] = decode_obj};
+
+static bool read_still(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
+                       struct kiln_error *error)
+{
+    struct decode_model model = {0};
+    if (mesh->moving)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "the file has no animation");
+    const bool ok =
+        readers[mesh->format](mesh, &model, error) && decode_surface(mesh, &model, result, error);
+    decode_model_finish(&model);
+    return ok;
+}
+
+bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
+                 struct kiln_error *error)
+{
+    const bool is_gltf = mesh->format == KILN_MESH_GLTF || mesh->format == KILN_MESH_GLB;
+    if (mesh->size == 0)
+        return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file is empty");
+    if (!(is_gltf ? import(mesh, result, error) : read_still(mesh, result, error)))
+        return false;
+    const char *lacks = result->triangle_count == 0 ? "no triangles"
+                        : result->vertex_count < 3  ? "no triangle with an area"
+                                                    : NULL;
+    return !lacks || kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has %s", lacks);
 }
