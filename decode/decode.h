@@ -136,9 +136,6 @@ struct decode_mesh {
     void *user;
 };
 
-/* Opens the importer's library, before the process is confined. */
-bool decode_mesh_begin(struct kiln_error *error);
-
 /* Imports a mesh in this process; kiln limits its time (lib/asset/loader/helper.c). *needs_other is
  * set, and false returned, if only a process of kind KILN_DECODE_DRACO can. The caller frees
  * result->skin.deltas, also after a failure. */
@@ -153,17 +150,14 @@ bool decode_gltf(const struct decode_mesh *mesh, struct kiln_mesh_result *result
 bool decode_draco_begin(struct kiln_error *error);
 bool decode_draco_is_ready(void);
 
-struct aiScene;
-
 /* Sets the error that a mesh is too large; returns false. */
 bool decode_refuse_size(struct kiln_error *error);
 
 struct decode_model;
 
-/* Makes a model of a scene of assimp that does not move. The caller finishes the model, also after
- * a failure. */
-bool decode_assimp_model(const struct aiScene *scene, struct decode_model *model,
-                         struct kiln_error *error);
+/* Read a file in which nothing moves. The caller finishes the model, also after a failure. */
+bool decode_obj(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
 
 /* Makes one surface of all parts of a model. */
 bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,

@@ -333,14 +333,13 @@ static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
         return kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error);
     case KILN_DECODE_VIDEO:
         return kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, error);
-    case KILN_DECODE_MESH:
-        return decode_mesh_begin(error);
     case KILN_DECODE_DRACO:
         return decode_draco_begin(error);
     case KILN_DECODE_OPENEXR:
         return decode_exr_more_begin(error);
     case KILN_DECODE_PNG:
     case KILN_DECODE_EXR:
+    case KILN_DECODE_MESH:
     case KILN_DECODE_KIND_COUNT:
         break;
     }

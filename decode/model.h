@@ -34,6 +34,10 @@ struct decode_model {
     size_t part_count;
 };
 
+/* Gives an empty model as many meshes, which are empty, and a part for each that leaves it where it
+ * is. False: memory is short. */
+bool decode_model_allocate(struct decode_model *model, size_t count);
+
 void decode_model_finish(struct decode_model *model);
 
 /* A corner of a triangle. */

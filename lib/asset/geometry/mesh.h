@@ -20,6 +20,10 @@ enum {
     KILN_MAX_MESH_BYTES = 64 << 20, /* bytes of the file, and of each buffer that it names */
     KILN_MAX_MESH_VERTICES = 1 << 20,
     KILN_MAX_MESH_TRIANGLES = 1 << 20,
+    /* The version of the readers. It is raised with every change of the vertices or triangles that
+     * a file gives, so that states of particles that hit meshes, saved by earlier versions, are not
+     * used. */
+    KILN_MESH_READER_VERSION = 1,
 };
 
 /* Holds all geometry of a file in one piece: nodes are resolved, polygons are split into
