@@ -1,8 +1,8 @@
 /* This file finds the reader of a mesh by its format, and turns what it finds into kiln's arrays.
  *
- * It is a part of the process kiln-decode, which is confined before a mesh is read, since a mesh may
- * be malicious. So decode_mesh must not open a file or a library: another file comes only through
- * mesh->open, which asks kiln for it. */
+ * It is a part of the process kiln-decode, which is confined before a mesh is read, since a mesh
+ * may be malicious. So decode_mesh must not open a file or a library: another file comes only
+ * through mesh->open, which asks kiln for it. */
 #include <string.h>
 
 #include "base/error.h"
