@@ -158,6 +158,10 @@ struct decode_model;
 /* Read a file in which nothing moves. The caller finishes the model, also after a failure. */
 bool decode_obj(const struct decode_mesh *wanted, struct decode_model *model,
                 struct kiln_error *error);
+bool decode_ply(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
+bool decode_stl(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
 
 /* Makes one surface of all parts of a model. */
 bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,

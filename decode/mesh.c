@@ -46,7 +46,8 @@ typedef bool read_model(const struct decode_mesh *wanted, struct decode_model *m
                         struct kiln_error *error);
 
 /* The readers of formats in which nothing moves. */
-static read_model *const readers[] = {[KILN_MESH_OBJ] = decode_obj};
+static read_model *const readers[] = {
+    [KILN_MESH_OBJ] = decode_obj, [KILN_MESH_PLY] = decode_ply, [KILN_MESH_STL] = decode_stl};
 
 static bool read_still(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
                        struct kiln_error *error)

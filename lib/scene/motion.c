@@ -6,8 +6,8 @@
  * The text that is hashed consists of the part's options, printed as a scene, KILN_STATE_VERSION,
  * the capacity of each system, and the hashes of wind files and of meshes and terrain that
  * particles hit. The hash of a mesh is that of its file, so it is followed by the version of the
- * readers of meshes. tests/unit/test_motion.c changes every option, and checks that the hash changes
- * where the particles' state does. */
+ * readers of meshes. tests/unit/test_motion.c changes every option, and checks that the hash
+ * changes where the particles' state does. */
 #include "scene/motion.h"
 
 #include "base/error.h"

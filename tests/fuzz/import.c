@@ -1,14 +1,15 @@
-/* Fuzzes how kiln-decode, the separate process that decodes strangers' files, converts the scenes
- * that the library assimp imports: any bytes must give a mesh within the limits or an error. If
- * this fails, a malicious mesh may take over kiln-decode through kiln's own code. Here assimp runs
- * in the fuzzer's process, so that libFuzzer sees the code that an input reaches. A crash inside
- * assimp is not a fault of kiln, which runs assimp only in kiln-decode; the target `mesh` tests
- * kiln with that process. */
+/* Fuzzes the readers of meshes of kiln-decode, the separate process that decodes strangers' files,
+ * and how it converts the scenes that the library assimp imports: any bytes must give a mesh within
+ * the limits or an error. If this fails, a malicious mesh may take over kiln-decode through kiln's
+ * own code. Here assimp runs in the fuzzer's process, so that libFuzzer sees the code that an input
+ * reaches. A crash inside assimp is not a fault of kiln, which runs assimp only in kiln-decode; the
+ * target `mesh` tests kiln with that process. */
 #include <stdlib.h>
 
 #include "decode.h"
 #include "fuzz.h"
 #include "image_check.h"
+#include "mesh_format.h"
 
 static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, bool moving)
 {
@@ -34,11 +35,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct kiln_error error = {0};
     require(decode_mesh_begin(&error), "assimp is missing");
-    const enum kiln_mesh_format format = size && data[0] == 'g'   ? KILN_MESH_GLB
-                                         : size && data[0] == '{' ? KILN_MESH_GLTF
-                                                                  : KILN_MESH_OBJ;
+    const enum kiln_mesh_format format = guess_format(data, size);
     import(data, size, format, false);
-    if (format != KILN_MESH_OBJ)
+    if (format == KILN_MESH_GLTF || format == KILN_MESH_GLB)
         import(data, size, format, true);
     return 0;
 }

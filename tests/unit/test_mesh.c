@@ -303,15 +303,15 @@ static void numbers_need_no_zero_before_their_point(void **state)
     "the file is of glTF version 1; kiln reads version 2, to which Blender or another program "    \
     "converts it"
 
+#define NO_MESH                                                                                    \
+    "the name is not that of a mesh; allowed are OBJ, glTF, GLB, PLY or STL files (.obj, .gltf, "  \
+    ".glb, .ply, .stl)"
+
 static void nonsense_is_refused(void **state)
 {
     (void)state;
-    refuse_text(
-        CUBE, "cube.stl",
-        "the name is not that of a mesh; allowed are OBJ, glTF or GLB files (.obj, .gltf, .glb)");
-    refuse_text(
-        CUBE, "cube",
-        "the name is not that of a mesh; allowed are OBJ, glTF or GLB files (.obj, .gltf, .glb)");
+    refuse_text(CUBE, "cube.3ds", NO_MESH);
+    refuse_text(CUBE, "cube", NO_MESH);
     refuse_text("", "empty.obj", "the mesh file is empty");
     refuse_text(CUBE, "cube.glb", "the contents of the file are not those of a .glb file");
     refuse_text(CUBE, "cube.gltf", "the contents of the file are not those of a .gltf file");
@@ -332,6 +332,43 @@ static void nonsense_is_refused(void **state)
     refuse_text("{\"asset\": {\"version\": \"1.0\"}}", "first.gltf", FIRST_GLTF);
     refuse_text("{\"meshes\": {\"mesh\": {}}}", "oldest.gltf", FIRST_GLTF);
     refuse("glTF\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 20, "first.glb", FIRST_GLTF);
+}
+
+/* Formats that Blender converts are refused with the command that does it. */
+static void other_formats_are_refused_with_a_command(void **state)
+{
+    (void)state;
+    refuse_text(
+        "Kaydara", "things/a-1.FBX",
+        "FBX is not read; allowed are OBJ, glTF, GLB, PLY or STL files. Blender converts it: "
+        "blender -b --python-expr \"import bpy; "
+        "bpy.ops.wm.read_factory_settings(use_empty=True); "
+        "bpy.ops.import_scene.fbx(filepath='things/a-1.FBX'); "
+        "bpy.ops.export_scene.gltf(filepath='things/a-1.glb')\"");
+    refuse_text(
+        "<", "it's $(x).dae",
+        "COLLADA is not read; allowed are OBJ, glTF, GLB, PLY or STL files. Blender converts "
+        "it: blender -b --python-expr \"import bpy; "
+        "bpy.ops.wm.read_factory_settings(use_empty=True); "
+        "bpy.ops.wm.collada_import(filepath='FILE.dae'); "
+        "bpy.ops.export_scene.gltf(filepath='FILE.glb')\"");
+    refuse_text("BLENDER", "a.blend",
+                "a file of Blender is not read; allowed are OBJ, glTF, GLB, PLY or STL files. "
+                "Blender converts it: blender -b a.blend --python-expr \"import bpy; "
+                "bpy.ops.export_scene.gltf(filepath='a.glb')\"");
+    static const char *const usd[] = {"usd", "usda", "usdc", "usdz"};
+    for (size_t i = 0; i < sizeof usd / sizeof *usd; i++) {
+        char name[16], text[512];
+        snprintf(name, sizeof name, "a.%s", usd[i]);
+        snprintf(text, sizeof text,
+                 "USD is not read; allowed are OBJ, glTF, GLB, PLY or STL files. Blender converts "
+                 "it: blender -b --python-expr \"import bpy; "
+                 "bpy.ops.wm.read_factory_settings(use_empty=True); "
+                 "bpy.ops.wm.usd_import(filepath='%s'); "
+                 "bpy.ops.export_scene.gltf(filepath='a.glb')\"",
+                 name);
+        refuse_text("#usda 1.0", name, text);
+    }
 }
 
 static void cut_files_are_refused(void **state)
@@ -421,9 +458,9 @@ static void files_must_be_files(void **state)
     struct kiln_error error = {0};
     test_write_file("folder.obj/file", "");
     assert_null(kiln_mesh_load(NULL, "folder.obj", &error));
-    expect_error(
-        &error, KILN_INVALID_INPUT,
-        "folder.obj: the path is not a file but a folder; allowed are OBJ, glTF or GLB files");
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "folder.obj: the path is not a file but a folder; allowed are OBJ, glTF, GLB, PLY "
+                 "or STL files");
     assert_null(kiln_mesh_load(NULL, "missing.obj", &error));
     expect_error(&error, KILN_IO,
                  "missing.obj: the mesh cannot be opened: No such file or directory");
@@ -442,6 +479,7 @@ int main(void)
         cmocka_unit_test(mirrored_nodes_are_not_inside_out),
         cmocka_unit_test(numbers_need_no_zero_before_their_point),
         cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(other_formats_are_refused_with_a_command),
         cmocka_unit_test(cut_files_are_refused),
         cmocka_unit_test_setup_teardown(importing_can_be_stopped, test_enter_folder,
                                         test_leave_folder),

@@ -206,12 +206,14 @@ static void polygons_are_covered_once(void **state)
         double x[16], y[16], area = 0, smallest = 0;
         char text[1024] = "";
         size_t count = 0, length = 0;
-        int used = 0;
-        for (const char *at = polygons[i];
-             sscanf(at, "%lf %lf%n", &x[count], &y[count], &used) == 2; at += used)
+        for (const char *at = polygons[i]; *at; count++) {
+            char *end;
+            x[count] = strtod(at, &end);
+            y[count] = strtod(end, &end);
+            at = end;
             length += (size_t)snprintf(text + length, sizeof text - length, "v %g %g 0\n", x[count],
-                                       y[count]),
-                count++;
+                                       y[count]);
+        }
         length += (size_t)snprintf(text + length, sizeof text - length, "f");
         for (size_t k = 0; k < count; k++) {
             length += (size_t)snprintf(text + length, sizeof text - length, " %zu", k + 1);

@@ -14,7 +14,7 @@
 #include "base/file_in.h"
 #include "base/hash.h"
 
-#define ALLOWED "OBJ, glTF or GLB"
+#define ALLOWED "OBJ, glTF, GLB, PLY or STL"
 
 enum { MAX_FILES = 64, MAX_WISHES = 100 };
 
@@ -310,12 +310,52 @@ static struct imported take(struct request *request, const struct kiln_mesh_resu
 
 /* ---- importing ------------------------------------------------------------------------------- */
 
+/* Refuses a format that kiln does not read, with the command by which Blender converts the file.
+ * The command names the file only if a shell takes its name as it is. */
+static bool refuse_convertible(const char *name, const char *format, const char *import,
+                               struct kiln_error *error)
+{
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-";
+    const char *dot = strrchr(name, '.');
+    const bool is_plain = name[strspn(name, plain)] == '\0' && name[0] != '-' && strlen(name) < 100;
+    const char *stem = is_plain ? name : "FILE";
+    const int length = is_plain ? (int)(dot - name) : 4;
+    char command[1024], open[512] = "";
+    if (import)
+        snprintf(open, sizeof open,
+                 "bpy.ops.wm.read_factory_settings(use_empty=True); %s(filepath='%.*s%s'); ",
+                 import, length, stem, dot);
+    snprintf(command, sizeof command,
+             "blender -b%s%.*s%s --python-expr \"import bpy; "
+             "%sbpy.ops.export_scene.gltf(filepath='%.*s.glb')\"",
+             import ? "" : " ", import ? 0 : length, stem, import ? "" : dot, open, length, stem);
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: %s is not read; allowed are " ALLOWED
+                          " files. Blender converts it: %s",
+                          name, format, command);
+}
+
 static bool find_format(struct request *request, struct kiln_error *error)
 {
     static const struct {
         const char *extension;
         enum kiln_mesh_format format;
-    } formats[] = {{".obj", KILN_MESH_OBJ}, {".gltf", KILN_MESH_GLTF}, {".glb", KILN_MESH_GLB}};
+    } formats[] = {{".obj", KILN_MESH_OBJ},
+                   {".gltf", KILN_MESH_GLTF},
+                   {".glb", KILN_MESH_GLB},
+                   {".ply", KILN_MESH_PLY},
+                   {".stl", KILN_MESH_STL}};
+    static const struct {
+        const char *extension, *format, *import; /* import: Blender's; NULL: it opens the file */
+    } others[] = {{".fbx", "FBX", "bpy.ops.import_scene.fbx"},
+                  {".dae", "COLLADA", "bpy.ops.wm.collada_import"},
+                  {".usd", "USD", "bpy.ops.wm.usd_import"},
+                  {".usda", "USD", "bpy.ops.wm.usd_import"},
+                  {".usdc", "USD", "bpy.ops.wm.usd_import"},
+                  {".usdz", "USD", "bpy.ops.wm.usd_import"},
+                  {".abc", "Alembic", "bpy.ops.wm.alembic_import"},
+                  {".blend", "a file of Blender", NULL}};
     const char *dot = strrchr(request->name, '.');
     for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++) {
         if (strcasecmp(dot, formats[i].extension) == 0) {
@@ -323,9 +363,13 @@ static bool find_format(struct request *request, struct kiln_error *error)
             return true;
         }
     }
+    for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++) {
+        if (strcasecmp(dot, others[i].extension) == 0)
+            return refuse_convertible(request->name, others[i].format, others[i].import, error);
+    }
     return kiln_error_set(error, KILN_INVALID_INPUT,
                           "%s: the name is not that of a mesh; allowed are " ALLOWED
-                          " files (.obj, .gltf, .glb)",
+                          " files (.obj, .gltf, .glb, .ply, .stl)",
                           request->name);
 }
 

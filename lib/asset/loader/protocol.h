@@ -45,7 +45,13 @@ enum kiln_picture_format {
     KILN_PICTURE_EXR,
 };
 
-enum kiln_mesh_format { KILN_MESH_OBJ, KILN_MESH_GLTF, KILN_MESH_GLB };
+enum kiln_mesh_format {
+    KILN_MESH_OBJ,
+    KILN_MESH_GLTF,
+    KILN_MESH_GLB,
+    KILN_MESH_PLY,
+    KILN_MESH_STL,
+};
 
 /* Asks for a file to be decoded. The file's descriptor is sent with it. A video needs one request
  * for all of its frames. */
