@@ -64,10 +64,18 @@ def meshes():
         "extension": gltf(extensionsRequired=["KHR_draco_mesh_compression"], extensionsUsed=["KHR_draco_mesh_compression"]),
         "version": gltf(asset={"version": "99.0"}), "names": gltf(nodes=[{"mesh": 0, "name": "\x1b]0;x\x07" * 1000}]),
         "many nodes": gltf(nodes=[{"mesh": 0, "children": list(range(1, 3000))}] + [{"mesh": 0}] * 2999),
+        "instances": gltf(nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}}],
+                          accessors=[accessor, dict(accessor, count=1 << 20, bufferView=None)]),
+        "Draco": gltf(meshes=[{"primitives": [{"attributes": {}, "extensions": {"KHR_draco_mesh_compression": {
+            "bufferView": 0, "attributes": {"POSITION": 0}}}}]}]),
+        "meshopt": gltf(bufferViews=[{"buffer": 1, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
+            "buffer": 0, "byteLength": 36, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}}],
+            buffers=gltf()["buffers"] + [{"byteLength": 36}]),
+        "targets": gltf(meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}] * 5000}]}]),
         "list for a number": gltf(scene=[[[]]]), "number for a list": gltf(nodes=3, meshes="a"),
     }
     loose = {"sound", "names", "many nodes", "sparse", "extension", "version", "list for a number", "number for a list",
-             "mesh missing", "no nodes"}
+             "mesh missing", "no nodes", "instances"}
     for i, (label, tree) in enumerate(trees.items()):
         codes = OK + REFUSED if label in loose else REFUSED
         yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", json.dumps(tree), codes, seconds=45,
@@ -78,7 +86,8 @@ def meshes():
         "number": json.dumps(gltf()).replace("36", "3" * 5000), "array": "[]",
     }
     for label, text in texts.items():
-        yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", text, smoke=label == "nested lists")
+        codes = OK if label.startswith("nested") else REFUSED
+        yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", text, codes, smoke=label == "nested lists")
     glbs = {
         "head": b"glTF", "length": glb(json.dumps(gltf()), length=0xffffffff), "chunk": glb(json.dumps(gltf()), chunk=0xffffffff),
         "nested": glb(nested(64)), "version": b"glTF" + struct.pack("<II", 77, 12) + bytes(40), "text": glb("no JSON"),
