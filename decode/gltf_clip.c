@@ -215,7 +215,7 @@ static bool put_weights(struct clips *c, struct kiln_skin_clip *clip,
                             KILN_MAX_CLIP_MORPHS);
         struct kiln_skin_morph_channel *channel =
             &skin->morph_channels[skin->morph_channel_count++];
-        channel->morph = morph;
+        *channel = (struct kiln_skin_morph_channel){.morph = morph};
         c->morph_channels[morph] = 1;
         clip->morph_count++;
         if (!put_track(c, sampler, 1, moved->target_count, i % moved->target_count,
@@ -283,8 +283,8 @@ static bool put_clip(struct clips *c, uint32_t animation, const uint32_t *number
     if (skin->clip_count == KILN_MAX_CLIPS)
         return GLTF_SET(g, "more than %d animations; no more are allowed", KILN_MAX_CLIPS);
     struct kiln_skin_clip *clip = &skin->clips[skin->clip_count++];
-    clip->first = skin->channel_count;
-    clip->first_morph = skin->morph_channel_count;
+    *clip = (struct kiln_skin_clip){.first = skin->channel_count,
+                                    .first_morph = skin->morph_channel_count};
     if (json_text(&g->json, json_member(&g->json, animation, "name"), clip->name,
                   sizeof clip->name) >= sizeof clip->name)
         return GLTF_SET(g, "the name of an animation is longer than %d bytes",

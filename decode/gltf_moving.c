@@ -62,6 +62,7 @@ static bool put_nodes(struct moving *m)
     struct gltf *g = m->g;
     struct kiln_skin_result *skin = &m->result->skin;
     put_matrix((const double[3][4]){{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, skin->nodes[0].rest);
+    skin->nodes[0].parent = 0;
     m->numbers[0] = JSON_NONE;
     skin->node_count = 1;
     bool ok = true;

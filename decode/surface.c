@@ -15,7 +15,22 @@
 static const double CREASE = 0.6427876096865394;
 enum { MOST_CREASED = 64 };
 
-enum { TABLE_SIZE = 2 * KILN_MAX_MESH_VERTICES }; /* a power of two */
+/* A hash table of numbers from 1. A slot with 0 is empty. */
+struct table {
+    uint32_t *slots;
+    size_t size; /* a power of two */
+};
+
+/* Makes an empty table that entries, of which there are `most` or fewer, fill by half; where the
+ * corners have more places than a mesh may have vertices, it is fuller. */
+static bool make_table(struct table *table, size_t most)
+{
+    table->size = 64;
+    while (table->size < 2 * most && table->size < (size_t)4 * KILN_MAX_MESH_VERTICES)
+        table->size *= 2;
+    table->slots = calloc(table->size, sizeof *table->slots);
+    return table->slots != NULL;
+}
 
 struct part {
     const struct decode_model_mesh *mesh;
@@ -225,41 +240,47 @@ static void smooth(struct surface *s, const uint32_t *next, uint32_t first)
 
 /* Links the corners at each place to a list, in their order. first[] has the first corner of each
  * list, and next[] the one after each corner. Returns the number of lists. */
-static size_t chain(const struct surface *s, uint32_t *table, uint32_t *next, uint32_t *first)
+static size_t chain(const struct surface *s, struct table *table, uint32_t *next, uint32_t *first)
 {
     size_t count = 0;
     for (size_t n = s->corner_count; n-- > 0;) {
         const float *position = s->corners[n].position;
         const size_t bytes = sizeof s->corners[n].position;
-        uint32_t slot = hash_of(position, bytes) % (2 * TABLE_SIZE);
-        while (table[slot] > 0 &&
-               memcmp(s->corners[first[table[slot] - 1]].position, position, bytes) != 0)
-            slot = (slot + 1) % (2 * TABLE_SIZE);
-        if (table[slot] == 0) {
-            table[slot] = (uint32_t)++count;
+        size_t slot = hash_of(position, bytes) % table->size;
+        while (table->slots[slot] > 0 &&
+               memcmp(s->corners[first[table->slots[slot] - 1]].position, position, bytes) != 0)
+            slot = (slot + 1) % table->size;
+        if (table->slots[slot] == 0) {
+            table->slots[slot] = (uint32_t)++count;
             first[count - 1] = UINT32_MAX;
         }
-        next[n] = first[table[slot] - 1];
-        first[table[slot] - 1] = (uint32_t)n;
+        next[n] = first[table->slots[slot] - 1];
+        first[table->slots[slot] - 1] = (uint32_t)n;
     }
     return count;
 }
 
 static bool find_normals(struct surface *s)
 {
-    uint32_t *table = calloc((size_t)2 * TABLE_SIZE, sizeof *table);
+    bool is_needed = false;
+    for (size_t i = 0; !is_needed && i < s->corner_count; i++)
+        is_needed = !s->corners[i].has_normal;
+    if (!is_needed)
+        return true;
+    struct table table;
+    const bool made = make_table(&table, s->corner_count);
     uint32_t *next = malloc(s->corner_count * sizeof *next);
     uint32_t *first = malloc(s->corner_count * sizeof *first);
     s->faces = malloc(s->corner_count / 3 * sizeof *s->faces);
     s->angles = malloc(s->corner_count * sizeof *s->angles);
-    const bool ok = table && next && first && s->faces && s->angles;
+    const bool ok = made && next && first && s->faces && s->angles;
     if (ok) {
         find_faces(s);
-        const size_t count = chain(s, table, next, first);
+        const size_t count = chain(s, &table, next, first);
         for (size_t i = 0; i < count; i++)
             smooth(s, next, first[i]);
     }
-    free(table);
+    free(table.slots);
     free(next);
     free(first);
     free(s->faces);
@@ -276,7 +297,7 @@ bool decode_find_normals(struct decode_corner *corners, size_t count, struct kil
 /* ---- vertices -------------------------------------------------------------------------------- */
 
 /* Finds the number of a corner's vertex, which is an equal vertex or a new one. */
-static bool join(struct surface *s, uint32_t *table, const struct decode_corner *corner,
+static bool join(struct surface *s, struct table *table, const struct decode_corner *corner,
                  uint32_t *number)
 {
     struct kiln_mesh_result *result = s->result;
@@ -286,9 +307,9 @@ static bool join(struct surface *s, uint32_t *table, const struct decode_corner 
     memcpy(key + 3, corner->normal, sizeof corner->normal);
     if (uvs)
         memcpy(key + 6, corner->uv, sizeof corner->uv);
-    uint32_t slot = hash_of(key, sizeof key) % TABLE_SIZE;
-    for (; table[slot] > 0; slot = (slot + 1) % TABLE_SIZE) {
-        *number = table[slot] - 1;
+    size_t slot = hash_of(key, sizeof key) % table->size;
+    for (; table->slots[slot] > 0; slot = (slot + 1) % table->size) {
+        *number = table->slots[slot] - 1;
         if (memcmp(result->vertices[*number], key, sizeof *result->vertices) == 0 &&
             (!uvs || memcmp(result->uvs[*number], key + 6, sizeof *result->uvs) == 0))
             return true;
@@ -296,7 +317,7 @@ static bool join(struct surface *s, uint32_t *table, const struct decode_corner 
     if (result->vertex_count == KILN_MAX_MESH_VERTICES)
         return decode_refuse_size(s->error);
     *number = result->vertex_count++;
-    table[slot] = *number + 1;
+    table->slots[slot] = *number + 1;
     memcpy(result->vertices[*number], key, sizeof *result->vertices);
     if (uvs)
         memcpy(result->uvs[*number], key + 6, sizeof *result->uvs);
@@ -306,12 +327,14 @@ static bool join(struct surface *s, uint32_t *table, const struct decode_corner 
 static bool put_triangles(struct surface *s)
 {
     struct kiln_mesh_result *result = s->result;
-    uint32_t *table = calloc(TABLE_SIZE, sizeof *table);
-    bool ok = table || decode_out_of_memory(s->error);
+    struct table table;
+    const size_t most =
+        s->corner_count < KILN_MAX_MESH_VERTICES ? s->corner_count : KILN_MAX_MESH_VERTICES;
+    bool ok = make_table(&table, most) || decode_out_of_memory(s->error);
     for (size_t i = 0; ok && i < s->corner_count; i++)
-        ok = join(s, table, &s->corners[i], &result->triangles[i / 3][i % 3]);
+        ok = join(s, &table, &s->corners[i], &result->triangles[i / 3][i % 3]);
     result->triangle_count = (uint32_t)(s->corner_count / 3);
-    free(table);
+    free(table.slots);
     return ok;
 }
 

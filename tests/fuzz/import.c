@@ -10,13 +10,29 @@
 #include "image_check.h"
 #include "mesh_format.h"
 
+/* Returns an empty result. One is used for all inputs, since its arrays are large. */
+static struct kiln_mesh_result *empty_result(void)
+{
+    static struct kiln_mesh_result *result;
+    if (!result)
+        result = calloc(1, sizeof *result);
+    require(result != NULL, "no memory");
+    struct kiln_skin_result *skin = &result->skin;
+    free(skin->deltas);
+    skin->deltas = NULL;
+    result->vertex_count = result->triangle_count = 0;
+    skin->node_count = skin->bone_count = skin->clip_count = skin->channel_count = 0;
+    skin->key_count = skin->morph_count = skin->morph_channel_count = skin->delta_count = 0;
+    result->notes[0] = '\0';
+    return result;
+}
+
 static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, bool moving)
 {
     struct kiln_error error = {0};
     const struct decode_mesh mesh = {
         .format = format, .uvs = !moving, .moving = moving, .bytes = data, .size = size};
-    struct kiln_mesh_result *result = calloc(1, sizeof *result);
-    require(result != NULL, "no memory");
+    struct kiln_mesh_result *result = empty_result();
     bool needs_other = false;
     const bool made = decode_mesh(&mesh, result, &needs_other, &error);
     fuzz_taken = fuzz_taken || made || needs_other;
@@ -33,8 +49,6 @@ static void import(const uint8_t *data, size_t size, enum kiln_mesh_format forma
                 result->skin.morph_channel_count <= KILN_MAX_CLIP_MORPHS &&
                 result->skin.delta_count <= KILN_MAX_SKIN_DELTAS,
             "a mesh beyond the limits");
-    free(result->skin.deltas);
-    free(result);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
