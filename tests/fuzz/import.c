@@ -27,11 +27,13 @@ static struct kiln_mesh_result *empty_result(void)
     return result;
 }
 
-static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, bool moving)
+static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, bool uvs,
+                   bool moving)
 {
     struct kiln_error error = {0};
     const struct decode_mesh mesh = {
-        .format = format, .uvs = !moving, .moving = moving, .bytes = data, .size = size};
+
+        .format = format, .uvs = uvs, .moving = moving, .bytes = data, .size = size};
     struct kiln_mesh_result *result = empty_result();
     bool needs_other = false;
     const bool made = decode_mesh(&mesh, result, &needs_other, &error);
@@ -55,8 +57,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_taken = false;
     const enum kiln_mesh_format format = guess_format(data, size);
-    import(data, size, format, false);
+    import(data, size, format, false, false);
+    import(data, size, format, true, false);
     if (format == KILN_MESH_GLTF || format == KILN_MESH_GLB)
-        import(data, size, format, true);
+        import(data, size, format, false, true);
     return 0;
 }
