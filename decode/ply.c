@@ -193,18 +193,16 @@ static bool read_property(struct reading *r, struct decode_line *line)
     return true;
 }
 
+/* Reads a line of the header. Comments are ignored, as are lines with any other first word: some
+ * versions of Blender wrote comments without the word "comment". */
 static bool read_header_line(struct reading *r, const struct decode_word *word,
                              struct decode_line *line)
 {
-    if (decode_word_is(word, "comment") || decode_word_is(word, "obj_info"))
-        return true;
     if (decode_word_is(word, "format"))
         return read_format(r, line);
     if (decode_word_is(word, "element"))
         return read_element(r, line);
-    if (decode_word_is(word, "property"))
-        return read_property(r, line);
-    return refuse_word(r, word, "format, comment, obj_info, element, property or end_header");
+    return !decode_word_is(word, "property") || read_property(r, line);
 }
 
 static bool read_header(struct reading *r)
