@@ -7,8 +7,6 @@ pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 # kiln needs only the headers of EGL: libepoxy loads EGL at the first call, so a machine without EGL gets an error
 # from kiln and not from the dynamic linker.
 pkg_check_modules(KILN_EGL egl)
-# kiln needs only the headers of assimp, which is loaded when a scene has a mesh (decode/mesh.c).
-pkg_check_modules(KILN_ASSIMP assimp>=5)
 # kiln needs only the headers of the libraries of pictures, which kiln-decode loads for pictures of their kind
 # (decode/jpeg.c, decode/webp.c, decode/tiff.c, decode/profile.c).
 pkg_check_modules(KILN_PICTURES libjpeg libwebp libwebpdemux libtiff-4 lcms2)
@@ -26,9 +24,12 @@ pkg_check_modules(KILN_CGLM cglm)
 # start of kiln; only the module kiln-openexr.so links it (decode/exr_module.cc).
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
-if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR
+# Only the module kiln-draco.so links Draco (decode/draco_module.cc).
+pkg_check_modules(KILN_DRACO draco)
+if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR
    NOT KILN_FFMPEG_FOUND OR NOT KILN_PICTURES_FOUND OR NOT KILN_SECCOMP_FOUND OR NOT KILN_DEFLATE_FOUND OR
-   NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE)
+   NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE OR
+   NOT KILN_DRACO_FOUND)
     message(FATAL_ERROR "A library is missing; run tools/setup to install all that kiln needs.")
 endif()
 add_library(kiln_dependencies INTERFACE)

@@ -22,11 +22,12 @@
  * A picture of the largest size takes 1 GiB as floats in the decoder, and 1 GiB in kiln's layout.
  */
 static const uint64_t most_memory_of[] = {
-    [KILN_DECODE_PNG] = (uint64_t)1 << 30,     [KILN_DECODE_JPEG] = (uint64_t)1 << 30,
-    [KILN_DECODE_WEBP] = (uint64_t)2 << 30,    [KILN_DECODE_TIFF] = (uint64_t)3 << 30,
-    [KILN_DECODE_PROFILE] = (uint64_t)3 << 30, [KILN_DECODE_PICTURE] = (uint64_t)3 << 30,
-    [KILN_DECODE_EXR] = (uint64_t)3 << 30,     [KILN_DECODE_VIDEO] = (uint64_t)4 << 30,
-    [KILN_DECODE_OPENEXR] = (uint64_t)3 << 30, [KILN_DECODE_MESH] = (uint64_t)1280 << 20,
+    [KILN_DECODE_PNG] = (uint64_t)1 << 30,      [KILN_DECODE_JPEG] = (uint64_t)1 << 30,
+    [KILN_DECODE_WEBP] = (uint64_t)2 << 30,     [KILN_DECODE_TIFF] = (uint64_t)3 << 30,
+    [KILN_DECODE_PROFILE] = (uint64_t)3 << 30,  [KILN_DECODE_PICTURE] = (uint64_t)3 << 30,
+    [KILN_DECODE_EXR] = (uint64_t)3 << 30,      [KILN_DECODE_VIDEO] = (uint64_t)4 << 30,
+    [KILN_DECODE_OPENEXR] = (uint64_t)3 << 30,  [KILN_DECODE_MESH] = (uint64_t)1280 << 20,
+    [KILN_DECODE_DRACO] = (uint64_t)1280 << 20,
 };
 
 enum {

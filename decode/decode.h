@@ -159,27 +159,35 @@ struct decode_mesh {
     void *user;
 };
 
-/* Opens the importer's library, before the process is confined. */
-bool decode_mesh_begin(struct kiln_error *error);
-
-/* Imports a mesh in this process; kiln limits its time (lib/asset/loader/helper.c). */
-bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
+/* Imports a mesh in this process; kiln limits its time (lib/asset/loader/helper.c). *needs_other is
+ * set, and false returned, if only a process of kind KILN_DECODE_DRACO can. The caller frees
+ * result->skin.deltas, also after a failure. */
+bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result, bool *needs_other,
                  struct kiln_error *error);
 
-struct aiScene;
+/* Reads a glTF file, as decode_mesh does. */
+bool decode_gltf(const struct decode_mesh *mesh, struct kiln_mesh_result *result, bool *needs_other,
+                 struct kiln_error *error);
+
+/* Opens the module of Draco, before the process is confined. */
+bool decode_draco_begin(struct kiln_error *error);
+bool decode_draco_is_ready(void);
 
 /* Sets the error that a mesh is too large; returns false. */
 bool decode_refuse_size(struct kiln_error *error);
 
-/* Makes one surface of all meshes of a scene that does not move. */
-bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
+struct decode_model;
+
+/* Read a file in which nothing moves. The caller finishes the model, also after a failure. */
+bool decode_obj(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
+bool decode_ply(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
+bool decode_stl(const struct decode_mesh *wanted, struct decode_model *model,
+                struct kiln_error *error);
+
+/* Makes one surface of all parts of a model. */
+bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error);
-
-/* Appends all meshes of a scene that moves, and the nodes, bones and clips that move them. */
-bool decode_skin(const struct decode_mesh *wanted, const struct aiScene *scene,
-                 struct kiln_mesh_result *result, struct kiln_error *error);
-
-/* Returns the text of a glTF file, or that of the first chunk of a GLB. */
-const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size);
 
 #endif

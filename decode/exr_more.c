@@ -4,45 +4,21 @@
  * pixels may differ a little from machine to machine. */
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/error.h"
-#include "base/library.h"
 #include "exr.h"
 #include "exr_module.h"
-#include "kiln_program.h"
-
-#define MODULE "kiln-openexr.so"
+#include "module.h"
 
 static struct {
     __typeof__(kiln_openexr_read) *kiln_openexr_read;
 } module;
 
-/* Finds the module: beside this program, or in the folder that the environment names for kiln's own
- * programs. */
-static bool find_module(char path[KILN_PATH_SIZE])
-{
-    char program[KILN_PATH_SIZE];
-    const ssize_t got = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[got > 0 ? got : 0] = '\0';
-    const char *slash = strrchr(program, '/');
-    if (slash &&
-        snprintf(path, KILN_PATH_SIZE, "%.*s/" MODULE, (int)(slash - program), program) <
-            KILN_PATH_SIZE &&
-        access(path, R_OK) == 0)
-        return true;
-    const char *set = kiln_environment("KILN_LIBEXEC_DIR");
-    return set && snprintf(path, KILN_PATH_SIZE, "%s/" MODULE, set) < KILN_PATH_SIZE;
-}
-
 bool decode_exr_more_begin(struct kiln_error *error)
 {
     static const struct kiln_library_function functions[] = {
         {"kiln_openexr_read", &module.kiln_openexr_read}};
-    char path[KILN_PATH_SIZE];
-    return (find_module(path) || kiln_error_set(error, KILN_DEVICE_FAILED,
-                                                "the module " MODULE " of kiln is missing")) &&
-           kiln_library_open(path, "libopenexr-3-1-30", functions, 1, error);
+    return decode_module_open("kiln-openexr.so", "libopenexr-3-1-30", functions, 1, error);
 }
 
 bool decode_exr_more_is_ready(void)

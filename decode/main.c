@@ -285,15 +285,18 @@ static bool send_array(void *user, void *array, size_t bytes)
 static void send_mesh(const struct kiln_decode_request *request, struct kiln_mesh_result *result)
 {
     const struct kiln_skin_result *skin = &result->skin;
-    const struct kiln_decode_answer answer = {.what = KILN_DECODE_MESH_MADE,
-                                              .vertices = result->vertex_count,
-                                              .triangles = result->triangle_count,
-                                              .has_normals = skin->has_normals,
-                                              .nodes = skin->node_count,
-                                              .bones = skin->bone_count,
-                                              .clips = skin->clip_count,
-                                              .channels_of_clips = skin->channel_count,
-                                              .keys = skin->key_count};
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_MESH_MADE,
+                                        .vertices = result->vertex_count,
+                                        .triangles = result->triangle_count,
+                                        .nodes = skin->node_count,
+                                        .bones = skin->bone_count,
+                                        .clips = skin->clip_count,
+                                        .channels_of_clips = skin->channel_count,
+                                        .keys = skin->key_count,
+                                        .morphs = skin->morph_count,
+                                        .morph_channels = skin->morph_channel_count,
+                                        .deltas = skin->delta_count};
+    snprintf(answer.text, sizeof answer.text, "%s", result->notes);
     send_answer(&answer);
     kiln_mesh_visit_arrays(result, request->uvs, request->moving, send_array, NULL);
 }
@@ -307,13 +310,18 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
                                .open = ask_for_file};
     unsigned char *bytes = read_file(file, request->most_bytes, &mesh.size, &error);
     struct kiln_mesh_result *result = bytes ? calloc(1, sizeof *result) : NULL;
+    bool needs_other = false;
     mesh.bytes = bytes;
     if (bytes && !result)
         decode_out_of_memory(&error);
-    if (result && decode_mesh(&mesh, result, &error))
+    if (result && decode_mesh(&mesh, result, &needs_other, &error))
         send_mesh(request, result);
+    else if (needs_other)
+        send_text(KILN_DECODE_NEEDS_OTHER, "");
     else
         send_failure(&error, NULL);
+    if (result)
+        free(result->skin.deltas);
     free(result);
     free(bytes);
 }
@@ -338,12 +346,13 @@ static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
         return kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, error);
     case KILN_DECODE_VIDEO:
         return kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, error);
-    case KILN_DECODE_MESH:
-        return decode_mesh_begin(error);
+    case KILN_DECODE_DRACO:
+        return decode_draco_begin(error);
     case KILN_DECODE_OPENEXR:
         return decode_exr_more_begin(error);
     case KILN_DECODE_PNG:
     case KILN_DECODE_EXR:
+    case KILN_DECODE_MESH:
     case KILN_DECODE_KIND_COUNT:
         break;
     }
@@ -383,7 +392,7 @@ int main(int argc, char **argv)
         const int file = receive(&request, sizeof request);
         if (kind == KILN_DECODE_VIDEO)
             serve_video(file);
-        else if (kind == KILN_DECODE_MESH)
+        else if (kind == KILN_DECODE_MESH || kind == KILN_DECODE_DRACO)
             serve_mesh(&request, file);
         else
             serve_picture(&request, file);

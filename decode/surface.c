@@ -2,32 +2,40 @@
  * file's nodes put them, adds normals where the file has none, and joins equal vertices. Assimp
  * could do that, but its sums are rounded differently on different processors. Here, sums are in
  * double, and no multiplication is fused with an addition. */
-#include <assimp/scene.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "decode.h"
+#include "model.h"
 
 /* The cosine of 50 degrees, up to which an edge between triangles is smooth. Where more than
  * MOST_CREASED triangles meet, all edges are smooth. */
 static const double CREASE = 0.6427876096865394;
 enum { MOST_CREASED = 64 };
 
-enum { TABLE_SIZE = 2 * KILN_MAX_MESH_VERTICES }; /* a power of two */
-
-/* A mesh of the file as a node places it. `rows` is the matrix that takes its vertices to their
- * places. */
-struct part {
-    const struct aiMesh *mesh;
-    size_t order; /* position in the file */
-    double rows[3][4];
+/* A hash table of numbers from 1. A slot with 0 is empty. */
+struct table {
+    uint32_t *slots;
+    size_t size; /* a power of two */
 };
 
-struct corner {
-    float position[3], normal[3], uv[2];
-    bool has_normal;
+/* Makes an empty table that entries, of which there are `most` or fewer, fill by half; where the
+ * corners have more places than a mesh may have vertices, it is fuller. */
+static bool make_table(struct table *table, size_t most)
+{
+    table->size = 64;
+    while (table->size < 2 * most && table->size < (size_t)4 * KILN_MAX_MESH_VERTICES)
+        table->size *= 2;
+    table->slots = calloc(table->size, sizeof *table->slots);
+    return table->slots != NULL;
+}
+
+struct part {
+    const struct decode_model_mesh *mesh;
+    size_t order; /* position in the file */
+    const double (*rows)[4];
 };
 
 struct surface {
@@ -35,8 +43,8 @@ struct surface {
     struct kiln_mesh_result *result;
     struct kiln_error *error;
     struct part *parts; /* in the order of their materials */
-    size_t part_count, part_capacity;
-    struct corner *corners; /* three a triangle */
+    size_t part_count;
+    struct decode_corner *corners; /* three a triangle */
     size_t corner_count;
     double (*faces)[3]; /* unit normals of triangles, or 0 */
     double *angles;     /* of triangles at their corners, radians */
@@ -44,106 +52,30 @@ struct surface {
 
 /* ---- parts ----------------------------------------------------------------------------------- */
 
-struct placed {
-    const struct aiNode *node;
-    double rows[3][4];
-};
-
-/* Returns the placement of a node: its parent's matrix times its own. */
-static struct placed place(const struct aiNode *node, const double parent[3][4])
+/* Finds the parts that have triangles, and counts the corners. */
+static bool find_parts(struct surface *s, const struct decode_model *model)
 {
-    const struct aiMatrix4x4 *m = &node->mTransformation;
-    const double own[4][4] = {{(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
-                              {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
-                              {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4},
-                              {0, 0, 0, 1}};
-    struct placed placed = {.node = node};
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 4; column++) {
-            double sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += parent[row][k] * own[k][column];
-            placed.rows[row][column] = sum;
-        }
+    s->parts = malloc((model->part_count + 1) * sizeof *s->parts);
+    if (!s->parts)
+        return decode_out_of_memory(s->error);
+    for (size_t i = 0; i < model->part_count; i++) {
+        const struct decode_model_part *from = &model->parts[i];
+        const struct decode_model_mesh *mesh = &model->meshes[from->mesh];
+        if (mesh->triangle_count == 0)
+            continue;
+        if (mesh->triangle_count > KILN_MAX_MESH_TRIANGLES - s->corner_count / 3)
+            return decode_refuse_size(s->error);
+        s->corner_count += 3 * mesh->triangle_count;
+        s->parts[s->part_count++] = (struct part){.mesh = mesh, .order = i, .rows = from->rows};
     }
-    return placed;
-}
-
-static size_t count_triangles(const struct aiMesh *mesh)
-{
-    size_t count = 0;
-    for (unsigned i = 0; i < mesh->mNumFaces; i++)
-        count += mesh->mFaces[i].mNumIndices == 3;
-    return count;
-}
-
-/* Adds a mesh as a part, unless it has no triangle. */
-static bool add_part(struct surface *s, const struct aiMesh *mesh, const double rows[3][4])
-{
-    const size_t triangles = count_triangles(mesh);
-    if (triangles == 0)
-        return true;
-    if (triangles > KILN_MAX_MESH_TRIANGLES - s->corner_count / 3)
-        return decode_refuse_size(s->error);
-    if (s->part_count == s->part_capacity) {
-        s->part_capacity = 2 * s->part_capacity + 16;
-        struct part *more = realloc(s->parts, s->part_capacity * sizeof *more);
-        if (!more)
-            return decode_out_of_memory(s->error);
-        s->parts = more;
-    }
-    struct part *part = &s->parts[s->part_count];
-    part->mesh = mesh;
-    part->order = s->part_count++;
-    memcpy(part->rows, rows, sizeof part->rows);
-    s->corner_count += 3 * triangles;
     return true;
-}
-
-/* Grows a stack by `more` entries and returns the first of them; NULL: no memory. */
-static struct placed *push(struct placed **stack, size_t *count, size_t *capacity, size_t more)
-{
-    if (*count + more > *capacity) {
-        *capacity = 2 * (*count + more);
-        struct placed *grown = realloc(*stack, *capacity * sizeof *grown);
-        if (!grown)
-            return NULL;
-        *stack = grown;
-    }
-    *count += more;
-    return *stack + *count - more;
-}
-
-/* Adds the parts of all nodes. It walks the tree, each node before its children, without recursion,
- * since an untrusted file decides the depth. */
-static bool find_parts(struct surface *s, const struct aiScene *scene)
-{
-    static const double world[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-    struct placed *stack = NULL;
-    size_t count = 0, capacity = 0;
-    struct placed *next = push(&stack, &count, &capacity, 1);
-    if (next)
-        *next = place(scene->mRootNode, world);
-    bool ok = next || decode_out_of_memory(s->error);
-    while (ok && count > 0) {
-        const struct placed at = stack[--count];
-        const unsigned children = at.node->mNumChildren;
-        for (unsigned i = 0; ok && i < at.node->mNumMeshes; i++)
-            ok = add_part(s, scene->mMeshes[at.node->mMeshes[i]], at.rows);
-        next = push(&stack, &count, &capacity, children);
-        ok = ok && (next || decode_out_of_memory(s->error));
-        for (unsigned i = 0; ok && i < children; i++) /* the first one on top */
-            next[children - 1 - i] = place(at.node->mChildren[i], at.rows);
-    }
-    free(stack);
-    return ok;
 }
 
 /* Orders parts by material, then by their position in the file. */
 static int by_material(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
-    const unsigned first = x->mesh->mMaterialIndex, second = y->mesh->mMaterialIndex;
+    const uint32_t first = x->mesh->material, second = y->mesh->material;
     return first != second ? (first > second) - (first < second)
                            : (x->order > y->order) - (x->order < y->order);
 }
@@ -151,14 +83,20 @@ static int by_material(const void *a, const void *b)
 /* ---- corners --------------------------------------------------------------------------------- */
 
 /* Finds the cofactors of a matrix, which transform normals such that they stay perpendicular to a
- * scaled surface. */
-static void find_cofactors(const double rows[3][4], double out[3][3])
+ * scaled surface. Those of a mirroring matrix are negated, since they would turn normals inwards.
+ * Returns whether the matrix mirrors. */
+static bool find_cofactors(const double rows[3][4], double out[3][3])
 {
     for (int row = 0; row < 3; row++) {
         const double *a = rows[(row + 1) % 3], *b = rows[(row + 2) % 3];
         for (int c = 0; c < 3; c++)
             out[row][c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
     }
+    const double determinant =
+        rows[0][0] * out[0][0] + rows[0][1] * out[0][1] + rows[0][2] * out[0][2];
+    for (int i = 0; i < 9 && determinant < 0; i++)
+        out[i / 3][i % 3] = -out[i / 3][i % 3];
+    return determinant < 0;
 }
 
 /* Scales a vector to length 1, or to 0 where it has no direction. */
@@ -171,7 +109,7 @@ static void normalize(double v[3])
 }
 
 /* Stores a corner's normal; one without a direction points upwards. */
-static void keep_normal(struct corner *corner, double normal[3])
+static void keep_normal(struct decode_corner *corner, double normal[3])
 {
     normalize(normal);
     const bool none = normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
@@ -179,43 +117,44 @@ static void keep_normal(struct corner *corner, double normal[3])
         corner->normal[c] = none ? (c == 1 ? 1.0f : 0.0f) : (float)normal[c] + 0.0f;
 }
 
-static void put_corner(const struct part *part, const double cofactors[3][3], unsigned vertex,
-                       struct corner *corner)
+static void put_corner(const struct part *part, const double cofactors[3][3], uint32_t vertex,
+                       struct decode_corner *corner)
 {
-    const struct aiMesh *mesh = part->mesh;
-    const double p[3] = {(double)mesh->mVertices[vertex].x, (double)mesh->mVertices[vertex].y,
-                         (double)mesh->mVertices[vertex].z};
+    const struct decode_model_mesh *mesh = part->mesh;
+    const float *p = mesh->positions[vertex];
     for (int row = 0; row < 3; row++) {
         const double *m = part->rows[row];
-        corner->position[row] = (float)(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]) + 0.0f;
+        corner->position[row] =
+            (float)(m[0] * (double)p[0] + m[1] * (double)p[1] + m[2] * (double)p[2] + m[3]) + 0.0f;
     }
-    corner->has_normal = mesh->mNormals != NULL;
+    corner->has_normal = mesh->normals != NULL;
     if (corner->has_normal) {
-        const double n[3] = {(double)mesh->mNormals[vertex].x, (double)mesh->mNormals[vertex].y,
-                             (double)mesh->mNormals[vertex].z};
+        const float *n = mesh->normals[vertex];
         double turned[3];
         for (int row = 0; row < 3; row++) {
             const double *m = cofactors[row];
-            turned[row] = m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
+            turned[row] = m[0] * (double)n[0] + m[1] * (double)n[1] + m[2] * (double)n[2];
         }
         keep_normal(corner, turned);
     }
-    const struct aiVector3D *uvs = mesh->mTextureCoords[0];
-    corner->uv[0] = uvs ? uvs[vertex].x : 0.0f;
-    corner->uv[1] = uvs ? uvs[vertex].y : 0.0f;
+    corner->uv[0] = mesh->uvs ? mesh->uvs[vertex][0] : 0.0f;
+    corner->uv[1] = mesh->uvs ? mesh->uvs[vertex][1] : 0.0f;
 }
 
 static void put_corners(struct surface *s)
 {
-    struct corner *corner = s->corners;
+    struct decode_corner *corner = s->corners;
     for (size_t i = 0; i < s->part_count; i++) {
         const struct part *part = &s->parts[i];
         double cofactors[3][3];
-        find_cofactors(part->rows, cofactors);
-        for (unsigned k = 0; k < part->mesh->mNumFaces; k++) {
-            const struct aiFace *face = &part->mesh->mFaces[k];
-            for (int c = 0; c < 3 && face->mNumIndices == 3; c++)
-                put_corner(part, cofactors, face->mIndices[c], corner++);
+        /* the corners of a mirrored triangle take another order, so that its front stays in front
+         */
+        const int second = find_cofactors(part->rows, cofactors) ? 2 : 1;
+        for (size_t k = 0; k < part->mesh->triangle_count; k++) {
+            const uint32_t *triangle = part->mesh->triangles[k];
+            put_corner(part, cofactors, triangle[0], corner++);
+            put_corner(part, cofactors, triangle[second], corner++);
+            put_corner(part, cofactors, triangle[3 - second], corner++);
         }
     }
 }
@@ -233,7 +172,7 @@ static double angle_of(double cosine)
 }
 
 /* Finds two edges of a triangle, from one of its corners to the next one and to the one before. */
-static void find_edges(const struct corner triangle[3], int corner, double a[3], double b[3])
+static void find_edges(const struct decode_corner triangle[3], int corner, double a[3], double b[3])
 {
     const float *at = triangle[corner].position;
     for (int c = 0; c < 3; c++) {
@@ -301,41 +240,47 @@ static void smooth(struct surface *s, const uint32_t *next, uint32_t first)
 
 /* Links the corners at each place to a list, in their order. first[] has the first corner of each
  * list, and next[] the one after each corner. Returns the number of lists. */
-static size_t chain(const struct surface *s, uint32_t *table, uint32_t *next, uint32_t *first)
+static size_t chain(const struct surface *s, struct table *table, uint32_t *next, uint32_t *first)
 {
     size_t count = 0;
     for (size_t n = s->corner_count; n-- > 0;) {
         const float *position = s->corners[n].position;
         const size_t bytes = sizeof s->corners[n].position;
-        uint32_t slot = hash_of(position, bytes) % (2 * TABLE_SIZE);
-        while (table[slot] > 0 &&
-               memcmp(s->corners[first[table[slot] - 1]].position, position, bytes) != 0)
-            slot = (slot + 1) % (2 * TABLE_SIZE);
-        if (table[slot] == 0) {
-            table[slot] = (uint32_t)++count;
+        size_t slot = hash_of(position, bytes) % table->size;
+        while (table->slots[slot] > 0 &&
+               memcmp(s->corners[first[table->slots[slot] - 1]].position, position, bytes) != 0)
+            slot = (slot + 1) % table->size;
+        if (table->slots[slot] == 0) {
+            table->slots[slot] = (uint32_t)++count;
             first[count - 1] = UINT32_MAX;
         }
-        next[n] = first[table[slot] - 1];
-        first[table[slot] - 1] = (uint32_t)n;
+        next[n] = first[table->slots[slot] - 1];
+        first[table->slots[slot] - 1] = (uint32_t)n;
     }
     return count;
 }
 
 static bool find_normals(struct surface *s)
 {
-    uint32_t *table = calloc((size_t)2 * TABLE_SIZE, sizeof *table);
+    bool is_needed = false;
+    for (size_t i = 0; !is_needed && i < s->corner_count; i++)
+        is_needed = !s->corners[i].has_normal;
+    if (!is_needed)
+        return true;
+    struct table table;
+    const bool made = make_table(&table, s->corner_count);
     uint32_t *next = malloc(s->corner_count * sizeof *next);
     uint32_t *first = malloc(s->corner_count * sizeof *first);
     s->faces = malloc(s->corner_count / 3 * sizeof *s->faces);
     s->angles = malloc(s->corner_count * sizeof *s->angles);
-    const bool ok = table && next && first && s->faces && s->angles;
+    const bool ok = made && next && first && s->faces && s->angles;
     if (ok) {
         find_faces(s);
-        const size_t count = chain(s, table, next, first);
+        const size_t count = chain(s, &table, next, first);
         for (size_t i = 0; i < count; i++)
             smooth(s, next, first[i]);
     }
-    free(table);
+    free(table.slots);
     free(next);
     free(first);
     free(s->faces);
@@ -343,10 +288,17 @@ static bool find_normals(struct surface *s)
     return ok || decode_out_of_memory(s->error);
 }
 
+bool decode_find_normals(struct decode_corner *corners, size_t count, struct kiln_error *error)
+{
+    struct surface s = {.corners = corners, .corner_count = count, .error = error};
+    return find_normals(&s);
+}
+
 /* ---- vertices -------------------------------------------------------------------------------- */
 
 /* Finds the number of a corner's vertex, which is an equal vertex or a new one. */
-static bool join(struct surface *s, uint32_t *table, const struct corner *corner, uint32_t *number)
+static bool join(struct surface *s, struct table *table, const struct decode_corner *corner,
+                 uint32_t *number)
 {
     struct kiln_mesh_result *result = s->result;
     const bool uvs = s->wanted->uvs;
@@ -355,9 +307,9 @@ static bool join(struct surface *s, uint32_t *table, const struct corner *corner
     memcpy(key + 3, corner->normal, sizeof corner->normal);
     if (uvs)
         memcpy(key + 6, corner->uv, sizeof corner->uv);
-    uint32_t slot = hash_of(key, sizeof key) % TABLE_SIZE;
-    for (; table[slot] > 0; slot = (slot + 1) % TABLE_SIZE) {
-        *number = table[slot] - 1;
+    size_t slot = hash_of(key, sizeof key) % table->size;
+    for (; table->slots[slot] > 0; slot = (slot + 1) % table->size) {
+        *number = table->slots[slot] - 1;
         if (memcmp(result->vertices[*number], key, sizeof *result->vertices) == 0 &&
             (!uvs || memcmp(result->uvs[*number], key + 6, sizeof *result->uvs) == 0))
             return true;
@@ -365,7 +317,7 @@ static bool join(struct surface *s, uint32_t *table, const struct corner *corner
     if (result->vertex_count == KILN_MAX_MESH_VERTICES)
         return decode_refuse_size(s->error);
     *number = result->vertex_count++;
-    table[slot] = *number + 1;
+    table->slots[slot] = *number + 1;
     memcpy(result->vertices[*number], key, sizeof *result->vertices);
     if (uvs)
         memcpy(result->uvs[*number], key + 6, sizeof *result->uvs);
@@ -375,12 +327,14 @@ static bool join(struct surface *s, uint32_t *table, const struct corner *corner
 static bool put_triangles(struct surface *s)
 {
     struct kiln_mesh_result *result = s->result;
-    uint32_t *table = calloc(TABLE_SIZE, sizeof *table);
-    bool ok = table || decode_out_of_memory(s->error);
+    struct table table;
+    const size_t most =
+        s->corner_count < KILN_MAX_MESH_VERTICES ? s->corner_count : KILN_MAX_MESH_VERTICES;
+    bool ok = make_table(&table, most) || decode_out_of_memory(s->error);
     for (size_t i = 0; ok && i < s->corner_count; i++)
-        ok = join(s, table, &s->corners[i], &result->triangles[i / 3][i % 3]);
+        ok = join(s, &table, &s->corners[i], &result->triangles[i / 3][i % 3]);
     result->triangle_count = (uint32_t)(s->corner_count / 3);
-    free(table);
+    free(table.slots);
     return ok;
 }
 
@@ -389,7 +343,7 @@ static bool put_triangles(struct surface *s)
 static bool check_uvs(const struct surface *s)
 {
     for (size_t i = 0; s->wanted->uvs && i < s->part_count; i++) {
-        if (!s->parts[i].mesh->mTextureCoords[0])
+        if (!s->parts[i].mesh->uvs)
             return kiln_error_set(
                 s->error, KILN_INVALID_INPUT,
                 "the mesh, or a part of it, has no texture coordinates, which paint needs");
@@ -397,11 +351,11 @@ static bool check_uvs(const struct surface *s)
     return true;
 }
 
-bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
+bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error)
 {
     struct surface s = {.wanted = wanted, .result = result, .error = error};
-    bool ok = find_parts(&s, scene) && check_uvs(&s);
+    bool ok = find_parts(&s, model) && check_uvs(&s);
     if (ok && s.part_count > 0)
         qsort(s.parts, s.part_count, sizeof *s.parts, by_material);
     s.corners = ok && s.corner_count > 0 ? malloc(s.corner_count * sizeof *s.corners) : NULL;

@@ -15,7 +15,7 @@ struct kiln_library_function {
     void *pointer; /* address of the function pointer to set */
 };
 
-/* Opens a library ("libassimp.so.5"), which stays open until the program ends, and finds functions
+/* Opens a library ("libtiff.so.6"), which stays open until the program ends, and finds functions
  * in it. KILN_IO, with the Debian package that has it, when there is no such library. KILN_IO also
  * when it lacks a function; then the pointers are in an unknown state. Only one thread may call at
  * a time. */

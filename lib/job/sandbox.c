@@ -114,13 +114,24 @@ static bool add_machine(struct places *places, char *library_path)
     return true;
 }
 
-/* The paths of kiln-decode and of the module that it opens for some EXR files. */
+/* The modules that kiln-decode opens for some files. They lie beside it (decode/module.c). */
+static const char *const modules[] = {"kiln-openexr.so", "kiln-draco.so"};
+
+enum { MODULES = sizeof modules / sizeof *modules };
+
 struct helper_paths {
-    char program[KILN_PATH_SIZE], module[KILN_PATH_SIZE];
+    char program[KILN_PATH_SIZE], modules[MODULES][KILN_PATH_SIZE];
 };
 
-/* Adds kiln-decode and its module, which lies beside it (decode/exr_more.c). A job without pictures
- * runs without them. */
+static bool add_module(struct places *places, const char *program, const char *module,
+                       char path[KILN_PATH_SIZE])
+{
+    const int folder = (int)(strrchr(program, '/') - program);
+    const int length = snprintf(path, KILN_PATH_SIZE, "%.*s/%s", folder, program, module);
+    return length >= KILN_PATH_SIZE || access(path, R_OK) != 0 || add(places, path, KILN_MAY_READ);
+}
+
+/* Adds kiln-decode and its modules. A job without pictures runs without them. */
 static bool add_helper(struct places *places, struct helper_paths *paths)
 {
     const char *linker = NULL;
@@ -130,12 +141,13 @@ static bool add_helper(struct places *places, struct helper_paths *paths)
         return false;
     if (!kiln_helper_find(paths->program, &ignored))
         return true;
-    const int folder = (int)(strrchr(paths->program, '/') - paths->program);
-    const int length = snprintf(paths->module, sizeof paths->module, "%.*s/kiln-openexr.so", folder,
-                                paths->program);
-    return add(places, paths->program, KILN_MAY_READ | KILN_MAY_EXECUTE) &&
-           (length >= (int)sizeof paths->module || access(paths->module, R_OK) != 0 ||
-            add(places, paths->module, KILN_MAY_READ));
+    if (!add(places, paths->program, KILN_MAY_READ | KILN_MAY_EXECUTE))
+        return false;
+    for (int i = 0; i < MODULES; i++) {
+        if (!add_module(places, paths->program, modules[i], paths->modules[i]))
+            return false;
+    }
+    return true;
 }
 
 static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])

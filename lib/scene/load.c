@@ -12,6 +12,7 @@
 #include "base/sized.h"
 #include "option/override.h"
 #include "scene/asset_path.h"
+#include "scene/mesh_notes.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
 
@@ -112,6 +113,7 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         !kiln_budget_is_kept(scene->budget, reader->error))
         return false;
     kiln_small_steps_warn(reader, root, &params->log);
+    kiln_mesh_notes_warn(reader, root, &params->log);
     return true;
 }
 

@@ -5,8 +5,9 @@
  *
  * The text that is hashed consists of the part's options, printed as a scene, KILN_STATE_VERSION,
  * the capacity of each system, and the hashes of wind files and of meshes and terrain that
- * particles hit. tests/unit/test_motion.c changes every option, and checks that the hash changes
- * where the particles' state does. */
+ * particles hit. The hash of a mesh is that of its file, so it is followed by the version of the
+ * readers of meshes. tests/unit/test_motion.c changes every option, and checks that the hash
+ * changes where the particles' state does. */
 #include "scene/motion.h"
 
 #include "base/error.h"
@@ -31,7 +32,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
         if (kiln_row_if_particles_hit_object(scene, object) == 0)
             continue;
         if (object->kind == KILN_OBJECT_MESH)
-            kiln_text_add(text, "%s\n", object->shown->hash);
+            kiln_text_add(text, "%s read %d\n", object->shown->hash, KILN_MESH_READER_VERSION);
         else if (object->kind == KILN_OBJECT_TERRAIN && object->file &&
                  !kiln_asset_add_hash(scene, object->file, text, error))
             return false;

@@ -11,8 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "asset/geometry/closed.h"
 #include "asset/geometry/field.h"
 #include "asset/geometry/grid_in.h"
+#include "base/error.h"
 #include "scene/asset_path.h"
 #include "scene/papers/papers.h"
 
@@ -95,11 +97,23 @@ float kiln_scene_field_reach(const struct kiln_scene *scene, const struct kiln_o
     return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
 }
 
+/* Counts the samples of a distance field. Where the mesh is not closed, the error names the
+ * colliders that take such a mesh. */
 static bool count_field(const struct kiln_scene *scene, const struct kiln_object *mesh,
                         size_t *samples, struct kiln_error *error)
 {
-    return kiln_field_check(mesh->collision_mesh, mesh->file, mesh->cells,
-                            kiln_scene_field_reach(scene, mesh), samples, error);
+    struct kiln_error reason = {0};
+    if (kiln_field_check(mesh->collision_mesh, mesh->file, mesh->cells,
+                         kiln_scene_field_reach(scene, mesh), samples, error))
+        return true;
+    if (error->code == KILN_INVALID_INPUT &&
+        !kiln_mesh_check_closed(mesh->collision_mesh, mesh->file, &reason) &&
+        reason.code == KILN_INVALID_INPUT)
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%.800s; 'collider: volume' and 'collider: depth_maps' take meshes that are "
+                       "not closed",
+                       reason.message);
+    return false;
 }
 
 static const struct kiln_mesh_grid FIELD = {.count = count_field};

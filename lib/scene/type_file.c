@@ -80,7 +80,8 @@ static bool read_mesh(struct kiln_reader *reader, const struct kiln_option *opti
 static void describe_mesh(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_text_add(out,
-                  "the path of an OBJ, glTF or GLB file, from the scene's folder and inside it%s",
+                  "the path of an OBJ, glTF, GLB, PLY or STL file, from the scene's folder and "
+                  "inside it%s",
                   option->fallback ? ", or none" : "");
 }
 

@@ -40,19 +40,17 @@ is_slow() {
     ! (ulimit -t 30 && "$build/tests/fuzz/fuzz_$name" -timeout=0 "$input" >/dev/null 2>&1) || { rm "$input"; false; }
 }
 
-# fuzz NAME: runs a target for one turn. The target `import` goes on after a crash, since its
-# crashes are faults of assimp, which runs in its process and which kiln does not trust.
+# fuzz NAME: runs a target for one turn. The target `import` has the seeds of `mesh`.
 fuzz() {
-    local name=$1 found=$build/found/$1 spent=0 left corpus options=()
+    local name=$1 found=$build/found/$1 spent=0 left corpus
     corpus=$source/tests/fuzz/corpus/${name/import/mesh}
-    [[ $name != import ]] || options=(-detect_leaks=0 -fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1)
     mkdir -p "$found"
     [[ ! -s $found.spent ]] || read -r spent <"$found.spent"
     left=$((share - spent < turn ? share - spent : turn))
     ((left > 0)) || return 0
     local TIMEFORMAT='%U %S' times
     if ! times=$({ time "$build/tests/fuzz/fuzz_$name" -max_total_time=$left -print_final_stats=1 -timeout=30 \
-        -rss_limit_mb=4096 "${options[@]}" -artifact_prefix="$build/$name-" "$found" "$corpus"/* \
+        -rss_limit_mb=4096 -artifact_prefix="$build/$name-" "$found" "$corpus"/* \
         >"$found.log" 2>&1; } 2>&1) && is_slow "$name"; then
         echo "$name: failed after $spent s: $(grep -m1 -E 'ERROR|SUMMARY|fuzz:' "$found.log")"
         return 1

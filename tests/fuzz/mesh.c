@@ -1,19 +1,22 @@
 /* Fuzzes the mesh loader. For any bytes, kiln must load a mesh or report an error, and for glTF
  * also a skinned mesh or an error. The numbers of vertices and triangles must stay within
  * KILN_MAX_MESH_*, and every vertex must be finite, also in every pose of the animation clip. If
- * this fails, a damaged OBJ or glTF file crashes kiln. The importer runs in a process of its own,
+ * this fails, a damaged mesh crashes kiln. The importer runs in a process of its own,
  * kiln-decode, and may crash there; kiln must report that as an error. */
-#include <string.h>
-
 #include "fuzz.h"
 #include "mesh_check.h"
+#include "mesh_format.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct kiln_error error = {0};
-    const char *name = size && data[0] == 'g'   ? "fuzz.glb"
-                       : size && data[0] == '{' ? "fuzz.gltf"
-                                                : "fuzz.obj";
+    static const char *const names[] = {[KILN_MESH_OBJ] = "fuzz.obj",
+                                        [KILN_MESH_GLTF] = "fuzz.gltf",
+                                        [KILN_MESH_GLB] = "fuzz.glb",
+                                        [KILN_MESH_PLY] = "fuzz.ply",
+                                        [KILN_MESH_STL] = "fuzz.stl"};
+    const enum kiln_mesh_format format = guess_format(data, size);
+    const char *name = names[format];
     struct kiln_mesh *mesh = kiln_mesh_parse(data, size, name, &error);
     fuzz_taken = mesh != NULL;
     if (mesh)
@@ -21,8 +24,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     else
         require(error.code != KILN_OK && *error.message, "an error without a message");
     kiln_mesh_destroy(&mesh);
-    struct kiln_skin *skin =
-        strcmp(name, "fuzz.obj") == 0 ? NULL : kiln_skin_parse(data, size, name, &error);
+    const bool may_move = format == KILN_MESH_GLTF || format == KILN_MESH_GLB;
+    struct kiln_skin *skin = may_move ? kiln_skin_parse(data, size, name, &error) : NULL;
     if (skin)
         check_skin(skin);
     kiln_skin_destroy(&skin);

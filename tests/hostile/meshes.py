@@ -31,6 +31,44 @@ def nested(levels, open_="[", close="]"):
     return json.dumps(gltf())[:-1] + ', "extras": ' + open_ * levels + close * levels + "}"
 
 
+def scans():
+    """Yields PLY and STL files."""
+    def ply(form, vertices="element vertex 3\nproperty float x\nproperty float y\nproperty float z\n",
+            faces="element face 1\nproperty list uchar int vertex_index\n", data=b""):
+        head = f"ply\nformat {form} 1.0\n{vertices}{faces}end_header\n".encode()
+        return head + (data if isinstance(data, bytes) else data.encode())
+
+    little, points = "binary_little_endian", struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    plys = {
+        "sound": ply(little, data=points + struct.pack("<B3i", 3, 0, 1, 2)),
+        "vertices": ply(little, "element vertex 4294967295\nproperty float x\n"),
+        "faces": ply("ascii", faces="element face 999999999999999999\nproperty list uchar int vertex_index\n",
+                     data="0 0 0 " * 3),
+        "list": ply(little, faces="element face 1\nproperty list uint int vertex_index\n",
+                    data=points + struct.pack("<I", 0xffffffff)),
+        "negative list": ply(little, faces="element face 1\nproperty list char int vertex_index\n",
+                             data=points + b"\xff" + bytes(40)),
+        "index": ply(little, data=points + struct.pack("<B3i", 3, 0, 1, -1)),
+        "element without properties": ply("ascii", "element nothing 999999999999999999\n", data="3 0 1 2"),
+        "unknown element for ever": ply("ascii", "element odd 999999999999999999\nproperty int a\n", data="1 2 3"),
+        "many elements": ply("ascii", "element a 1\n" * 100000), "many properties": ply(
+            "ascii", "element vertex 1\n" + "property float x\n" * 100000),
+        "no end": b"ply\nformat ascii 1.0\n" + b"comment a\n" * 100000, "head": b"ply", "zeros": b"ply\n" + bytes(1000),
+        "long words": ply("ascii", data="9" * 100000 + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+    }
+    for label, data in plys.items():
+        yield asset("meshes", "mesh", f"PLY {label}", "a.ply", data, OK if label == "sound" else REFUSED,
+                    smoke=label in ("list", "vertices"))
+    stls = {
+        "count": bytes(80) + b"\xff\xff\xff\xff" + bytes(200), "cut": bytes(80) + struct.pack("<I", 2) + bytes(99),
+        "none": bytes(84), "short": b"a" * 83, "not a number": bytes(80) + struct.pack("<I12fH", 1, *[float("nan")] * 12, 0),
+        "text": b"solid\n" + b"vertex " * 100000, "corners": b"solid\nfacet\n" + b"vertex 0 1 2\n" * 100000 + b"endfacet\n",
+        "zero byte": b"solid\nfacet\n\0" + b"vertex 0 1 2\n" * 10,
+    }
+    for label, data in stls.items():
+        yield asset("meshes", "mesh", f"STL {label}", "a.stl", data, smoke=label == "count")
+
+
 def meshes():
     triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     accessor = gltf()["accessors"][0]
@@ -42,14 +80,19 @@ def meshes():
         "no area": "v 0 0 0\n" * 3 + "f 1 2 3\n", "polygon": triangle + "f " + "1 2 3 " * 20000 + "\n",
         "line": "v " + "0 " * 100000 + "\n" + triangle + "f 1 2 3\n", "zero byte": triangle + "f 1 2 3\n\0",
         "materials": "mtllib ../secret.txt\nusemtl a\n" + triangle + "f 1 2 3\n",
+        "many materials": "".join(f"usemtl {i}\nf 1 2 3\n" for i in range(200000)) + triangle,
+        "crossed": "".join(f"v {i * 7919 % 10007} {i * i % 10007} 0\n" for i in range(3000)) +
+                   "f " + " ".join(map(str, range(1, 3001))) + "\n",
+        "joined lines": "v 0 0 0 \\\n" * 100000, "texture coordinates": "vt 0\n" * 4000000 + triangle + "f 1 2 3\n",
         "too many": triangle + "f 1 2 3\n" * 1100000, "groups": "g a\n" * 50000 + triangle + "f 1 2 3\n",
     }
-    fine = {"polygon", "line", "materials", "groups"}
+    fine = {"polygon", "line", "materials", "groups", "many materials", "crossed"}
     for label, text in objs.items():
         codes = OK + REFUSED if label in fine else REFUSED
         yield asset("meshes", "mesh", f"OBJ {label}", "a.obj", text, codes, smoke=label in ("not a number", "lines"))
     yield asset("meshes", "mesh", "OBJ over the limit", "a.obj", triangle + "f 1 2 3\nf 1 3 2\n" * 50, LIMIT,
                 lambda: check("--limits", "triangles=10"))
+    yield from scans()
     trees = {
         "sound": gltf(), "no nodes": gltf(nodes=[]), "node of itself": gltf(nodes=[{"mesh": 0, "children": [0]}]),
         "nodes in a ring": gltf(nodes=[{"children": [1]}, {"children": [0], "mesh": 0}]),
@@ -64,10 +107,18 @@ def meshes():
         "extension": gltf(extensionsRequired=["KHR_draco_mesh_compression"], extensionsUsed=["KHR_draco_mesh_compression"]),
         "version": gltf(asset={"version": "99.0"}), "names": gltf(nodes=[{"mesh": 0, "name": "\x1b]0;x\x07" * 1000}]),
         "many nodes": gltf(nodes=[{"mesh": 0, "children": list(range(1, 3000))}] + [{"mesh": 0}] * 2999),
+        "instances": gltf(nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}}],
+                          accessors=[accessor, dict(accessor, count=1 << 20, bufferView=None)]),
+        "Draco": gltf(meshes=[{"primitives": [{"attributes": {}, "extensions": {"KHR_draco_mesh_compression": {
+            "bufferView": 0, "attributes": {"POSITION": 0}}}}]}]),
+        "meshopt": gltf(bufferViews=[{"buffer": 1, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {
+            "buffer": 0, "byteLength": 36, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}}],
+            buffers=gltf()["buffers"] + [{"byteLength": 36}]),
+        "targets": gltf(meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}] * 5000}]}]),
         "list for a number": gltf(scene=[[[]]]), "number for a list": gltf(nodes=3, meshes="a"),
     }
     loose = {"sound", "names", "many nodes", "sparse", "extension", "version", "list for a number", "number for a list",
-             "mesh missing", "no nodes"}
+             "mesh missing", "no nodes", "instances"}
     for i, (label, tree) in enumerate(trees.items()):
         codes = OK + REFUSED if label in loose else REFUSED
         yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", json.dumps(tree), codes, seconds=45,
@@ -78,7 +129,8 @@ def meshes():
         "number": json.dumps(gltf()).replace("36", "3" * 5000), "array": "[]",
     }
     for label, text in texts.items():
-        yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", text, smoke=label == "nested lists")
+        codes = OK if label.startswith("nested") else REFUSED
+        yield asset("meshes", "mesh", f"glTF {label}", "a.gltf", text, codes, smoke=label == "nested lists")
     glbs = {
         "head": b"glTF", "length": glb(json.dumps(gltf()), length=0xffffffff), "chunk": glb(json.dumps(gltf()), chunk=0xffffffff),
         "nested": glb(nested(64)), "version": b"glTF" + struct.pack("<II", 77, 12) + bytes(40), "text": glb("no JSON"),

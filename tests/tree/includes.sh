@@ -8,7 +8,7 @@
 #   cmd/      may include lib/kiln*.h, its own headers and those of libc
 #   decode/   may include lib/kiln*.h, its own headers and those of the rooms base and asset
 # Headers in folders papers/ are included in such folders and in the files that rooms.awk lists. Only
-# decode/ includes assimp, and only lib/base/ffmpeg.h includes FFmpeg. The name of a shader
+# decode/draco_module.cc includes Draco, and only lib/base/ffmpeg.h includes FFmpeg. The name of a shader
 # file begins with the name of a C file of the same room.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
@@ -81,7 +81,8 @@ FNR == 1 {
         if (room == "cmd" && !(path in libc)) complain("cmd/ includes <" path ">, not of libc")
         if (path ~ /^lib(av|sw)/ && FILENAME != "lib/base/ffmpeg.h")
             complain("<" path "> is for lib/base/ffmpeg.h alone")
-        if (path ~ /^assimp/ && room != "decode") complain("<" path "> is for decode/ alone")
+        if (path ~ /^draco/ && FILENAME != "decode/draco_module.cc")
+            complain("<" path "> is for decode/draco_module.cc alone")
         next
     }
     if (path ~ /^kiln(_[a-z]+)?\.h$/ && room != "shared") next

@@ -234,6 +234,60 @@ static void buffers_elsewhere_are_refused(void **state)
         "the mesh file names the file 't.bin'; a file of this name must not name other files");
 }
 
+/* A tetrahedron around the origin, whose volume is 8/3, under a node with a scale; its normals,
+ * which a primitive may take, are its positions. */
+static const char MIRRORED[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}],"
+    " \"nodes\": [{\"mesh\": 0, \"scale\": [%s]}],"
+    " \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0%s}, \"indices\": 1}]}],"
+    " \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4,"
+    " \"type\": \"VEC3\", \"min\": [-1, -1, -1], \"max\": [1, 1, 1]},"
+    " {\"bufferView\": 1, \"componentType\": 5123, \"count\": 12, \"type\": \"SCALAR\"},"
+    " {\"bufferView\": 2, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}],"
+    " \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48},"
+    " {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 24},"
+    " {\"buffer\": 0, \"byteOffset\": 72, \"byteLength\": 48}],"
+    " \"buffers\": [{\"byteLength\": 120, \"uri\": "
+    "\"data:application/octet-stream;base64,AACAPwAAgD8AAIA/AACAvwAAgL8AAIA/A"
+    "ACAvwAAgD8AAIC/AACAPwAAgL8AAIC/AAACAAEAAAABAAMAAAADAAIAAQACAAMAOs0TPzr"
+    "NEz86zRM/Os0TvzrNE786zRM/Os0TvzrNEz86zRO/Os0TPzrNE786zRO/\"}]}";
+
+/* A mesh under a node that mirrors it faces outwards: its volume by the divergence theorem is that
+ * of the file's tetrahedron, with its sign, and normals point outwards, computed or from the file.
+ */
+static void mirrored_nodes_are_not_inside_out(void **state)
+{
+    static const char *const scales[] = {"-1, 1, 1", "1, -1.1, 0.9090909", "-1, -1, -1"};
+    static const char *const normals[] = {"", ", \"NORMAL\": 2"};
+    (void)state;
+    for (size_t i = 0; i < 6; i++) {
+        char text[4096];
+        snprintf(text, sizeof text, MIRRORED, scales[i % 3], normals[i / 3]);
+        struct kiln_mesh *mesh = parse(text, "mirrored.gltf");
+        double volume = 0;
+        for (uint32_t k = 0; k < mesh->triangle_count; k++) {
+            const float *p = mesh->vertices[mesh->triangles[k][0]];
+            const float *q = mesh->vertices[mesh->triangles[k][1]];
+            const float *r = mesh->vertices[mesh->triangles[k][2]];
+            double cross[3];
+            for (int c = 0; c < 3; c++) {
+                const int d = (c + 1) % 3, e = (c + 2) % 3;
+                cross[c] = (double)(q[d] - p[d]) * (double)(r[e] - p[e]) -
+                           (double)(q[e] - p[e]) * (double)(r[d] - p[d]);
+                volume += cross[c] * (double)p[c] / 6;
+            }
+            for (int v = 0; v < 3; v++) {
+                const float *n = mesh->vertices[mesh->triangles[k][v]] + 3;
+                assert_true(cross[0] * (double)n[0] + cross[1] * (double)n[1] +
+                                cross[2] * (double)n[2] >
+                            0);
+            }
+        }
+        assert_true(fabs(volume - 8.0 / 3) < 1e-5);
+        kiln_mesh_destroy(&mesh);
+    }
+}
+
 /* ---- what is no mesh ------------------------------------------------------------------------- */
 
 static void numbers_need_no_zero_before_their_point(void **state)
@@ -245,19 +299,19 @@ static void numbers_need_no_zero_before_their_point(void **state)
     kiln_mesh_destroy(&mesh);
 }
 
-#define BROKEN_GLTF                                                                                \
-    "the mesh is broken, or of a version of glTF that cannot be read; allowed are 2, and 1 as "    \
-    ".gltf"
+#define FIRST_GLTF                                                                                 \
+    "the file is of glTF version 1; kiln reads version 2, to which Blender or another program "    \
+    "converts it"
+
+#define NO_MESH                                                                                    \
+    "the name is not that of a mesh; allowed are OBJ, glTF, GLB, PLY or STL files (.obj, .gltf, "  \
+    ".glb, .ply, .stl)"
 
 static void nonsense_is_refused(void **state)
 {
     (void)state;
-    refuse_text(
-        CUBE, "cube.stl",
-        "the name is not that of a mesh; allowed are OBJ, glTF or GLB files (.obj, .gltf, .glb)");
-    refuse_text(
-        CUBE, "cube",
-        "the name is not that of a mesh; allowed are OBJ, glTF or GLB files (.obj, .gltf, .glb)");
+    refuse_text(CUBE, "cube.3ds", NO_MESH);
+    refuse_text(CUBE, "cube", NO_MESH);
     refuse_text("", "empty.obj", "the mesh file is empty");
     refuse_text(CUBE, "cube.glb", "the contents of the file are not those of a .glb file");
     refuse_text(CUBE, "cube.gltf", "the contents of the file are not those of a .gltf file");
@@ -269,8 +323,52 @@ static void nonsense_is_refused(void **state)
                 "vertex 1 lies at 1e+09 0 0; allowed are numbers within -1e+06 and 1e+06");
     refuse_text("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", "flat.obj",
                 "the mesh has no triangle with an area");
-    refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", BROKEN_GLTF);
-    refuse_text("{}", "none.gltf", BROKEN_GLTF);
+    refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", "the JSON is cut short");
+    refuse_text("{\"asset\": {\"version\": \"2.0\"},\n\n nodes: []}", "yaml.gltf",
+                "line 3 of the JSON is broken");
+    refuse_text("{}", "none.gltf",
+                "the file does not say of which version of glTF it is: 'asset.version' is missing; "
+                "allowed is \"2.0\"");
+    refuse_text("{\"asset\": {\"version\": \"1.0\"}}", "first.gltf", FIRST_GLTF);
+    refuse_text("{\"meshes\": {\"mesh\": {}}}", "oldest.gltf", FIRST_GLTF);
+    refuse("glTF\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 20, "first.glb", FIRST_GLTF);
+}
+
+/* Formats that Blender converts are refused with the command that does it. */
+static void other_formats_are_refused_with_a_command(void **state)
+{
+    (void)state;
+    refuse_text(
+        "Kaydara", "things/a-1.FBX",
+        "FBX is not read; allowed are OBJ, glTF, GLB, PLY or STL files. Blender converts it: "
+        "blender -b --python-expr \"import bpy; "
+        "bpy.ops.wm.read_factory_settings(use_empty=True); "
+        "bpy.ops.import_scene.fbx(filepath='things/a-1.FBX'); "
+        "bpy.ops.export_scene.gltf(filepath='things/a-1.glb')\"");
+    refuse_text(
+        "<", "it's $(x).dae",
+        "COLLADA is not read; allowed are OBJ, glTF, GLB, PLY or STL files. Blender converts "
+        "it: blender -b --python-expr \"import bpy; "
+        "bpy.ops.wm.read_factory_settings(use_empty=True); "
+        "bpy.ops.wm.collada_import(filepath='FILE.dae'); "
+        "bpy.ops.export_scene.gltf(filepath='FILE.glb')\"");
+    refuse_text("BLENDER", "a.blend",
+                "a file of Blender is not read; allowed are OBJ, glTF, GLB, PLY or STL files. "
+                "Blender converts it: blender -b a.blend --python-expr \"import bpy; "
+                "bpy.ops.export_scene.gltf(filepath='a.glb')\"");
+    static const char *const usd[] = {"usd", "usda", "usdc", "usdz"};
+    for (size_t i = 0; i < sizeof usd / sizeof *usd; i++) {
+        char name[16], text[512];
+        snprintf(name, sizeof name, "a.%s", usd[i]);
+        snprintf(text, sizeof text,
+                 "USD is not read; allowed are OBJ, glTF, GLB, PLY or STL files. Blender converts "
+                 "it: blender -b --python-expr \"import bpy; "
+                 "bpy.ops.wm.read_factory_settings(use_empty=True); "
+                 "bpy.ops.wm.usd_import(filepath='%s'); "
+                 "bpy.ops.export_scene.gltf(filepath='a.glb')\"",
+                 name);
+        refuse_text("#usda 1.0", name, text);
+    }
 }
 
 static void cut_files_are_refused(void **state)
@@ -290,8 +388,13 @@ static void cut_files_are_refused(void **state)
     assert_non_null(mesh);
     assert_int_equal(mesh->triangle_count, 4);
     kiln_mesh_destroy(&mesh);
-    for (int i = 1; i < 8; i++)
-        refuse(glb, (size_t)(size * i / 8), "cut.glb", BROKEN_GLTF);
+    for (int i = 1; i < 8; i++) {
+        char reason[128];
+        const long left = size * i / 8;
+        snprintf(reason, sizeof reason,
+                 "the file is cut short: it has %ld bytes, and its header says %ld", left, size);
+        refuse(glb, (size_t)left, "cut.glb", reason);
+    }
     free(glb);
 }
 
@@ -355,9 +458,9 @@ static void files_must_be_files(void **state)
     struct kiln_error error = {0};
     test_write_file("folder.obj/file", "");
     assert_null(kiln_mesh_load(NULL, "folder.obj", &error));
-    expect_error(
-        &error, KILN_INVALID_INPUT,
-        "folder.obj: the path is not a file but a folder; allowed are OBJ, glTF or GLB files");
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "folder.obj: the path is not a file but a folder; allowed are OBJ, glTF, GLB, PLY "
+                 "or STL files");
     assert_null(kiln_mesh_load(NULL, "missing.obj", &error));
     expect_error(&error, KILN_IO,
                  "missing.obj: the mesh cannot be opened: No such file or directory");
@@ -373,8 +476,10 @@ int main(void)
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(buffers_elsewhere_are_refused, test_enter_folder,
                                         test_leave_folder),
+        cmocka_unit_test(mirrored_nodes_are_not_inside_out),
         cmocka_unit_test(numbers_need_no_zero_before_their_point),
         cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(other_formats_are_refused_with_a_command),
         cmocka_unit_test(cut_files_are_refused),
         cmocka_unit_test_setup_teardown(importing_can_be_stopped, test_enter_folder,
                                         test_leave_folder),

@@ -31,8 +31,8 @@ static const struct {
      ":2:29: backdrop.objects.0.mesh.file: the key is missing and must be given"},
     {"kiln: 1\n"
      "backdrop: {objects: [{mesh: {file: 7}}]}\n",
-     ":2:36: backdrop.objects.0.mesh.file: expected the path of an OBJ, glTF or GLB file, from the "
-     "scene's folder and inside it, found '7'"},
+     ":2:36: backdrop.objects.0.mesh.file: expected the path of an OBJ, glTF, GLB, PLY or STL "
+     "file, from the scene's folder and inside it, found '7'"},
     {"kiln: 1\n"
      "backdrop: {objects: [{mesh: {file: ../pot.obj}}]}\n",
      ":2:36: backdrop.objects.0.mesh.file: '../pot.obj' is outside the asset root; a path starts "

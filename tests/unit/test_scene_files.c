@@ -284,7 +284,19 @@ static void what_collides_must_be_closed(void **state)
     expect_error(&error, KILN_INVALID_INPUT,
                  "scenes/open.yaml:2:64: backdrop.objects.0.mesh.collide: "
                  "'textures/open.obj': the mesh is not closed, so it has no inside: 1 "
-                 "triangle is at the edge from 0 0 0 to 0 1 0, where there must be two");
+                 "triangle is at the edge from 0 0 0 to 0 1 0, where there must be two; 'collider: "
+                 "volume' and 'collider: depth_maps' take meshes that are not closed");
+    static const char *const colliders[] = {"backdrop.objects.0.mesh.collider=volume",
+                                            "backdrop.objects.0.mesh.collider=depth_maps"};
+    for (int i = 0; i < 2; i++) {
+        struct kiln_scene_params other = kiln_scene_defaults();
+        other.overrides = &colliders[i];
+        other.override_count = 1;
+        struct kiln_scene *scene = kiln_scene_load("scenes/open.yaml", &other, &error);
+        if (!scene)
+            fail_msg("%s", error.message);
+        kiln_scene_destroy(&scene);
+    }
 }
 
 static void depth_maps_need_directions_and_no_inside(void **state)
@@ -388,8 +400,8 @@ static void meshes_are_checked_and_hashed(void **state)
     struct kiln_error error = {0};
     assert_null(kiln_scene_load("scenes/m.yaml", NULL, &error));
     expect_error(&error, KILN_INVALID_INPUT,
-                 "scenes/m.yaml:2:36: backdrop.objects.0.mesh.file: 'textures/m.obj': the mesh is "
-                 "broken: OBJ-file is too small.");
+                 "scenes/m.yaml:2:36: backdrop.objects.0.mesh.file: 'textures/m.obj': the mesh has "
+                 "no triangles");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)

@@ -1,4 +1,4 @@
-/* Declares meshes, and loads them from OBJ, glTF and GLB files. The mesh library
+/* Declares meshes, and loads them from OBJ, glTF, GLB, PLY and STL files. The mesh library
  * (asset/geometry/mesh_library.h) loads each file that a scene names once, and its meshes stay as
  * they are. Code that poses or turns a mesh (draw/moment/meshes.c, sim/world/volumes.c) works on a
  * copy.
@@ -20,6 +20,10 @@ enum {
     KILN_MAX_MESH_BYTES = 64 << 20, /* bytes of the file, and of each buffer that it names */
     KILN_MAX_MESH_VERTICES = 1 << 20,
     KILN_MAX_MESH_TRIANGLES = 1 << 20,
+    /* The version of the readers. It is raised with every change of the vertices or triangles that
+     * a file gives, so that states of particles that hit meshes, saved by earlier versions, are not
+     * used. */
+    KILN_MESH_READER_VERSION = 1,
 };
 
 /* Holds all geometry of a file in one piece: nodes are resolved, polygons are split into
@@ -34,14 +38,17 @@ struct kiln_mesh {
     /* SHA-256, in hex, of the hashes of the files that were read. Hashes of scenes and of their
      * motion contain it, so it may depend on nothing but the content of the files. */
     char hash[65];
+    /* what of the file was changed or left out, for the user: a line each, none at the end; "":
+     * nothing was */
+    char notes[KILN_MESSAGE_SIZE];
 };
 
-/* Loads a file whose name ends in .obj, .gltf or .glb. Files that it names must lie in its folder
- * or below, and below the loader's root. The caller destroys the mesh. Returns NULL with an error:
- * KILN_IO when the file cannot be read or there is no importer; KILN_INVALID_INPUT, with what was
- * found and what is allowed, when the file is no mesh, broken, cut short, beyond the limits above
- * or names files elsewhere; KILN_DEVICE_FAILED when memory is short; KILN_OVER_LIMIT when the
- * scene's budget is spent; KILN_INTERRUPTED when the loader is told to stop. */
+/* Loads a file whose name ends in .obj, .gltf, .glb, .ply or .stl. Files that it names must lie in
+ * its folder or below, and below the loader's root. The caller destroys the mesh. Returns NULL with
+ * an error: KILN_IO when the file cannot be read or there is no importer; KILN_INVALID_INPUT, with
+ * what was found and what is allowed, when the file is no mesh, broken, cut short, beyond the
+ * limits above or names files elsewhere; KILN_DEVICE_FAILED when memory is short; KILN_OVER_LIMIT
+ * when the scene's budget is spent; KILN_INTERRUPTED when the loader is told to stop. */
 struct kiln_mesh *kiln_mesh_load(struct kiln_loader *loader, const char *path,
                                  struct kiln_error *error);
 

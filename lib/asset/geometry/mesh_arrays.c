@@ -21,6 +21,9 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool movi
         {skin->channels, skin->channel_count, sizeof *skin->channels, moving},
         {skin->keys, skin->key_count, sizeof *skin->keys, moving},
         {skin->weights, vertices, sizeof *skin->weights, moving},
+        {skin->morphs, skin->morph_count, sizeof *skin->morphs, moving},
+        {skin->morph_channels, skin->morph_channel_count, sizeof *skin->morph_channels, moving},
+        {skin->deltas, skin->delta_count, sizeof *skin->deltas, moving},
     };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         if (arrays[i].wanted && !visit(user, arrays[i].array, arrays[i].count * arrays[i].size))

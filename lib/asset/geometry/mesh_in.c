@@ -14,7 +14,7 @@
 #include "base/file_in.h"
 #include "base/hash.h"
 
-#define ALLOWED "OBJ, glTF or GLB"
+#define ALLOWED "OBJ, glTF, GLB, PLY or STL"
 
 enum { MAX_FILES = 64, MAX_WISHES = 100 };
 
@@ -28,6 +28,7 @@ struct request {
     struct kiln_decode_request wanted;
     struct kiln_helper *helper;
     struct kiln_error refusal; /* error of the first file that may not be opened, if any */
+    struct kiln_error start;   /* error of a process that could not be started, if any */
     /* hashes of the file and of those that it names, in that order */
     char hashes[MAX_FILES * 64 + 1];
     size_t hash_length;
@@ -99,8 +100,7 @@ static int open_named(struct request *request, const char *name, struct kiln_err
     return opened;
 }
 
-/* Sends the process a file that it asked for. A refusal is sent, too, since assimp then looks for
- * other files. */
+/* Sends the process a file that it asked for, or that it may not be read. */
 static bool hand_over(struct request *request, const char *name, struct kiln_error *error)
 {
     const int file =
@@ -166,6 +166,9 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
         memcpy(mesh->uvs, result->uvs, mesh->vertex_count * sizeof *mesh->uvs);
     memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    snprintf(mesh->notes, sizeof mesh->notes, "%s", result->notes);
+    for (char *c = mesh->notes; *c; c++)
+        *c = (unsigned char)*c >= ' ' || *c == '\n' ? *c : ' ';
     kiln_mesh_find_bounds(mesh);
     return mesh;
 }
@@ -192,31 +195,53 @@ static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving)
            (!moving ||
             (skin->node_count <= KILN_MAX_SKIN_NODES && skin->bone_count <= KILN_MAX_SKIN_BONES &&
              skin->clip_count <= KILN_MAX_CLIPS && skin->channel_count <= KILN_MAX_CLIP_CHANNELS &&
-             skin->key_count <= KILN_MAX_CLIP_KEYS));
+             skin->key_count <= KILN_MAX_CLIP_KEYS && skin->morph_count <= KILN_MAX_SKIN_MORPHS &&
+             skin->morph_channel_count <= KILN_MAX_CLIP_MORPHS &&
+             skin->delta_count <= KILN_MAX_SKIN_DELTAS));
 }
 
 static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mesh_result *result)
 {
     result->vertex_count = answer->vertices;
     result->triangle_count = answer->triangles;
-    result->skin.has_normals = answer->has_normals != 0;
     result->skin.node_count = answer->nodes;
     result->skin.bone_count = answer->bones;
     result->skin.clip_count = answer->clips;
     result->skin.channel_count = answer->channels_of_clips;
     result->skin.key_count = answer->keys;
+    result->skin.morph_count = answer->morphs;
+    result->skin.morph_channel_count = answer->morph_channels;
+    result->skin.delta_count = answer->deltas;
+    snprintf(result->notes, sizeof result->notes, "%s", answer->text);
+}
+
+/* Takes the arrays of an answer. */
+static bool receive_arrays(struct request *request, struct kiln_mesh_result *result,
+                           struct kiln_error *reason)
+{
+    const bool moving = request->wanted.moving;
+    struct receiving receiving = {request, reason};
+    if (!are_counts_sound(result, moving))
+        return kiln_error_set(reason, KILN_INVALID_INPUT,
+                              "the importer returned inconsistent data");
+    if (moving && result->skin.delta_count > 0) {
+        result->skin.deltas = calloc(result->skin.delta_count, sizeof *result->skin.deltas);
+        if (!result->skin.deltas)
+            return kiln_error_no_memory(reason, "its morph targets");
+    }
+    return kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array, &receiving);
 }
 
 /* Waits for the answer, and sends the files that the process asks for meanwhile. */
-static bool await(struct request *request, struct kiln_decode_answer *answer,
+static bool await(struct request *request, unsigned other, struct kiln_decode_answer *answer,
                   struct kiln_error *error)
 {
-    const unsigned expected = 1u << KILN_DECODE_NEEDS_FILE | 1u << KILN_DECODE_MESH_MADE;
+    const unsigned expected = 1u << KILN_DECODE_NEEDS_FILE | 1u << KILN_DECODE_MESH_MADE | other;
     for (int wishes = 0; wishes < MAX_WISHES; wishes++) {
         if (!kiln_helper_answer(request->helper, kiln_loader_caller(request->loader), expected,
                                 answer, error))
             return false;
-        if (answer->what == KILN_DECODE_MESH_MADE)
+        if (answer->what != KILN_DECODE_NEEDS_FILE)
             return true;
         if (!hand_over(request, answer->text, error))
             return false;
@@ -224,27 +249,37 @@ static bool await(struct request *request, struct kiln_decode_answer *answer,
     return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file names too many files");
 }
 
-/* Asks for the mesh in a file, and waits for it. */
+/* Asks a process of a kind for the mesh in a file, and waits for it. */
+static bool ask(struct request *request, enum kiln_decode_kind kind, int file,
+                struct kiln_decode_answer *answer, struct kiln_error *reason)
+{
+    /* A process of the other kind needs no further one. */
+    const unsigned other = kind == KILN_DECODE_MESH ? 1u << KILN_DECODE_NEEDS_OTHER : 0;
+    kiln_helper_end(&request->helper);
+    request->helper = kiln_loader_take(request->loader, kind, &request->start);
+    return request->helper &&
+           kiln_helper_send(request->helper, &request->wanted, sizeof request->wanted, file,
+                            reason) &&
+           await(request, other, answer, reason);
+}
+
+/* Receives the mesh in a file. */
 static bool receive(struct request *request, int file, struct kiln_mesh_result *result,
                     struct kiln_error *error)
 {
-    const bool moving = request->wanted.moving;
     struct kiln_decode_answer answer;
     struct kiln_error reason = {0};
-    bool ok = kiln_helper_send(request->helper, &request->wanted, sizeof request->wanted, file,
-                               &reason) &&
-              await(request, &answer, &reason);
+    bool ok = ask(request, KILN_DECODE_MESH, file, &answer, &reason);
+    if (ok && answer.what == KILN_DECODE_NEEDS_OTHER)
+        ok = ask(request, KILN_DECODE_DRACO, file, &answer, &reason);
     if (ok) {
-        struct receiving receiving = {request, &reason};
         take_counts(&answer, result);
-        ok = are_counts_sound(result, moving)
-                 ? kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array,
-                                          &receiving)
-                 : kiln_error_set(&reason, KILN_INVALID_INPUT,
-                                  "the importer returned inconsistent data");
+        ok = receive_arrays(request, result, &reason);
     }
     if (request->refusal.code != KILN_OK)
         return kiln_error_set(error, request->refusal.code, "%s", request->refusal.message);
+    if (request->start.code != KILN_OK)
+        return kiln_error_set(error, request->start.code, "%s", request->start.message);
     return ok || kiln_helper_fail(request->name, &reason, error);
 }
 
@@ -275,12 +310,52 @@ static struct imported take(struct request *request, const struct kiln_mesh_resu
 
 /* ---- importing ------------------------------------------------------------------------------- */
 
+/* Refuses a format that kiln does not read, with the command by which Blender converts the file.
+ * The command names the file only if a shell takes its name as it is. */
+static bool refuse_convertible(const char *name, const char *format, const char *import,
+                               struct kiln_error *error)
+{
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-";
+    const char *dot = strrchr(name, '.');
+    const bool is_plain = name[strspn(name, plain)] == '\0' && name[0] != '-' && strlen(name) < 100;
+    const char *stem = is_plain ? name : "FILE";
+    const int length = is_plain ? (int)(dot - name) : 4;
+    char command[1024], open[512] = "";
+    if (import)
+        snprintf(open, sizeof open,
+                 "bpy.ops.wm.read_factory_settings(use_empty=True); %s(filepath='%.*s%s'); ",
+                 import, length, stem, dot);
+    snprintf(command, sizeof command,
+             "blender -b%s%.*s%s --python-expr \"import bpy; "
+             "%sbpy.ops.export_scene.gltf(filepath='%.*s.glb')\"",
+             import ? "" : " ", import ? 0 : length, stem, import ? "" : dot, open, length, stem);
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: %s is not read; allowed are " ALLOWED
+                          " files. Blender converts it: %s",
+                          name, format, command);
+}
+
 static bool find_format(struct request *request, struct kiln_error *error)
 {
     static const struct {
         const char *extension;
         enum kiln_mesh_format format;
-    } formats[] = {{".obj", KILN_MESH_OBJ}, {".gltf", KILN_MESH_GLTF}, {".glb", KILN_MESH_GLB}};
+    } formats[] = {{".obj", KILN_MESH_OBJ},
+                   {".gltf", KILN_MESH_GLTF},
+                   {".glb", KILN_MESH_GLB},
+                   {".ply", KILN_MESH_PLY},
+                   {".stl", KILN_MESH_STL}};
+    static const struct {
+        const char *extension, *format, *import; /* import: Blender's; NULL: it opens the file */
+    } others[] = {{".fbx", "FBX", "bpy.ops.import_scene.fbx"},
+                  {".dae", "COLLADA", "bpy.ops.wm.collada_import"},
+                  {".usd", "USD", "bpy.ops.wm.usd_import"},
+                  {".usda", "USD", "bpy.ops.wm.usd_import"},
+                  {".usdc", "USD", "bpy.ops.wm.usd_import"},
+                  {".usdz", "USD", "bpy.ops.wm.usd_import"},
+                  {".abc", "Alembic", "bpy.ops.wm.alembic_import"},
+                  {".blend", "a file of Blender", NULL}};
     const char *dot = strrchr(request->name, '.');
     for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++) {
         if (strcasecmp(dot, formats[i].extension) == 0) {
@@ -288,9 +363,13 @@ static bool find_format(struct request *request, struct kiln_error *error)
             return true;
         }
     }
+    for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++) {
+        if (strcasecmp(dot, others[i].extension) == 0)
+            return refuse_convertible(request->name, others[i].format, others[i].import, error);
+    }
     return kiln_error_set(error, KILN_INVALID_INPUT,
                           "%s: the name is not that of a mesh; allowed are " ALLOWED
-                          " files (.obj, .gltf, .glb)",
+                          " files (.obj, .gltf, .glb, .ply, .stl)",
                           request->name);
 }
 
@@ -299,14 +378,15 @@ static struct imported import(struct request *request, int file, struct kiln_err
     struct imported imported = {NULL, NULL};
     if (!note_contents(request, file, error))
         return imported;
-    request->helper = kiln_loader_take(request->loader, KILN_DECODE_MESH, error);
     struct kiln_mesh_result *result = calloc(1, sizeof *result);
     if (!result)
         kiln_error_no_memory(error, "reading the mesh of %s", request->name);
     request->wanted.most_bytes = KILN_MAX_MESH_BYTES;
-    if (result && request->helper && receive(request, file, result, error))
+    if (result && receive(request, file, result, error))
         imported = take(request, result, error);
     kiln_helper_end(&request->helper);
+    if (result)
+        free(result->skin.deltas);
     free(result);
     return imported;
 }

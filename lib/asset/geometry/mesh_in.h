@@ -18,6 +18,8 @@ struct kiln_mesh_result {
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
     struct kiln_skin_result skin;         /* filled for a mesh that moves */
     float uvs[KILN_MAX_MESH_VERTICES][2]; /* filled if they were asked for */
+    /* what was changed or left out, for the user: a line each, none at the end */
+    char notes[KILN_MESSAGE_SIZE];
 };
 
 /* Calls `visit` for each array that crosses the socket, in the order in which it does, with its
@@ -28,6 +30,10 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool movi
 
 /* Computes a mesh's bounding box, min and max, from the positions of its vertices (mesh.c). */
 void kiln_mesh_find_bounds(struct kiln_mesh *mesh);
+
+/* Checks the part `skin` of a result (skin_check.c). */
+bool kiln_skin_check(const char *name, const struct kiln_mesh_result *result,
+                     struct kiln_error *error);
 
 /* Checks the part `skin` of a result and makes a skin of it (skin.c). The mesh is made from the
  * rest of the same result, which mesh_in.c has checked. This takes ownership of the mesh, also on

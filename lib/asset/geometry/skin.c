@@ -1,6 +1,6 @@
 /* This file poses meshes that move: it finds the pose of the nodes from keys, then matrices, then
- * vertices. It uses + - * / and square roots alone, so that every machine gives the same bits. It
- * also checks the animation that kiln-decode sends. */
+ * vertices. It uses + - * / and square roots alone, so that every machine gives the same bits.
+ * skin_check.c has checked the numbers before. */
 #include "asset/geometry/skin.h"
 
 #include <ctype.h>
@@ -12,20 +12,24 @@
 #include "asset/geometry/mesh_in.h"
 #include "base/error.h"
 
-/* limit of coordinates in keys, matrices and vertices, in units of the file */
-static const float FARTHEST = 1e6f;
-
 struct kiln_skin {
     struct kiln_mesh *mesh; /* the mesh at rest */
     float (*sources)[6];    /* vertices before nodes and bones are applied; normals of any length */
     struct kiln_skin_weights *weights;
-    uint32_t node_count, bone_count, clip_count;
-    struct kiln_skin_node nodes[KILN_MAX_SKIN_NODES];
-    struct kiln_skin_bone bones[KILN_MAX_SKIN_BONES];
-    struct kiln_skin_clip clips[KILN_MAX_CLIPS];
-    float lengths[KILN_MAX_CLIPS]; /* lengths of the clips, s */
+    uint32_t node_count, bone_count, clip_count, morph_count;
+    struct kiln_skin_node *nodes;
+    struct kiln_skin_bone *bones;
+    struct kiln_skin_clip *clips;
     struct kiln_skin_channel *channels;
     struct kiln_skin_key *keys;
+    struct kiln_skin_morph *morphs;
+    struct kiln_skin_morph_channel *morph_channels;
+    struct kiln_skin_delta *deltas;
+};
+
+struct kiln_skin_scratch {
+    mat4 *nodes, *bones;
+    float *morphs; /* weights */
 };
 
 /* ---- between keys ---------------------------------------------------------------------------- */
@@ -57,27 +61,46 @@ static void turn_between(versor a, versor b, float t, versor out)
     glm_quat_normalize(out); /* corrects the rounding of its length */
 }
 
+/* Interpolates by a cubic Hermite spline from one key frame to the next, each of which has three
+ * keys (glTF 2.0, appendix C.5). */
+static void spline_between(struct kiln_skin_key *a, struct kiln_skin_key *b, float t, vec4 out)
+{
+    const float square = t * t, cube = square * t, length = b->seconds - a->seconds;
+    const float towards = 3.0f * square - 2.0f * cube;
+    glm_vec4_scale(a[1].value, 1.0f - towards, out);
+    glm_vec4_muladds(a[2].value, length * (cube - 2.0f * square + t), out);
+    glm_vec4_muladds(b[1].value, towards, out);
+    glm_vec4_muladds(b[0].value, length * (cube - square), out);
+}
+
 /* Reads a track at a moment; a track without keys does not change the value. */
 static void read_track(const struct kiln_skin *skin, const struct kiln_skin_track *track,
                        bool turns, float seconds, vec4 out)
 {
+    const uint32_t parts = kiln_skin_parts(track);
     if (track->count == 0)
         return;
     struct kiln_skin_key *keys = skin->keys + track->first;
-    /* the last key at or before the moment is in low .. high - 1 */
-    uint32_t low = 0, high = track->count;
+    /* the last key frame at or before the moment is in low .. high - 1 */
+    uint32_t low = 0, high = track->count / parts;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
-        *(keys[middle].seconds <= seconds ? &low : &high) = middle;
+        *(keys[(size_t)middle * parts].seconds <= seconds ? &low : &high) = middle;
     }
-    struct kiln_skin_key *a = &keys[low], *b = &keys[low + 1 < track->count ? low + 1 : low];
+    const uint32_t next = (low + 1) * parts < track->count ? low + 1 : low;
+    struct kiln_skin_key *a = &keys[(size_t)low * parts], *b = &keys[(size_t)next * parts];
     float t =
         seconds > a->seconds && b > a ? (seconds - a->seconds) / (b->seconds - a->seconds) : 0.0f;
-    if (turns && t > 0.0f) {
+    if (t == 0.0f || track->interpolation == KILN_SKIN_STEP)
+        glm_vec4_copy(a[parts / 2].value, out);
+    else if (track->interpolation == KILN_SKIN_CUBIC)
+        spline_between(a, b, t, out);
+    else if (turns)
         turn_between(a->value, b->value, t, out);
-        return;
-    }
-    glm_vec4_lerp(a->value, b->value, t, out);
+    else
+        glm_vec4_lerp(a->value, b->value, t, out);
+    if (turns && track->interpolation == KILN_SKIN_CUBIC)
+        glm_quat_normalize(out);
 }
 
 /* ---- matrices -------------------------------------------------------------------------------- */
@@ -92,12 +115,11 @@ static void compose(vec4 move, versor turn, vec4 scale, mat4 out)
 
 /* Finds each bone's matrix from vertices to the file's space. A clip, if any, moves its nodes. */
 static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_clip *clip,
-                        float seconds, mat4 *bones)
+                        float seconds, const struct kiln_skin_scratch *scratch)
 {
-    mat4 local[KILN_MAX_SKIN_NODES], nodes[KILN_MAX_SKIN_NODES];
-    memcpy(local[0], skin->nodes[0].rest, sizeof local[0]); /* node 0 always exists */
-    for (uint32_t i = 1; i < skin->node_count; i++)
-        memcpy(local[i], skin->nodes[i].rest, sizeof local[i]);
+    mat4 *nodes = scratch->nodes;
+    for (uint32_t i = 0; i < skin->node_count; i++)
+        memcpy(nodes[i], skin->nodes[i].rest, sizeof nodes[i]);
     for (uint32_t i = 0; clip && i < clip->count; i++) {
         const struct kiln_skin_channel *channel = &skin->channels[clip->first + i];
         versor turn = GLM_QUAT_IDENTITY_INIT;
@@ -105,14 +127,16 @@ static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_cli
         read_track(skin, &channel->tracks[KILN_CHANNEL_MOVE], false, seconds, move);
         read_track(skin, &channel->tracks[KILN_CHANNEL_TURN], true, seconds, turn);
         read_track(skin, &channel->tracks[KILN_CHANNEL_SCALE], false, seconds, scale);
-        compose(move, turn, scale, local[channel->node]);
+        compose(move, turn, scale, nodes[channel->node]);
     }
-    glm_mat4_copy(local[0], nodes[0]);
-    for (uint32_t i = 1; i < skin->node_count; i++)
-        glm_mul(nodes[skin->nodes[i].parent], local[i], nodes[i]);
+    for (uint32_t i = 1; i < skin->node_count; i++) {
+        mat4 local;
+        glm_mat4_copy(nodes[i], local);
+        glm_mul(nodes[skin->nodes[i].parent], local, nodes[i]);
+    }
     for (uint32_t i = 0; i < skin->bone_count; i++) {
         struct kiln_skin_bone bone = skin->bones[i];
-        glm_mul(nodes[bone.node], bone.offset, bones[i]);
+        glm_mul(nodes[bone.node], bone.offset, scratch->bones[i]);
     }
 }
 
@@ -121,7 +145,8 @@ static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_cli
 /* Bounds a coordinate that only a faulty file makes too large. */
 static float bounded(float x)
 {
-    return x >= -FARTHEST ? (x <= FARTHEST ? x : FARTHEST) : -FARTHEST;
+    return x >= -KILN_SKIN_FARTHEST ? (x <= KILN_SKIN_FARTHEST ? x : KILN_SKIN_FARTHEST)
+                                    : -KILN_SKIN_FARTHEST;
 }
 
 /* Returns whether a matrix mirrors. */
@@ -159,14 +184,14 @@ static void blend(const struct kiln_skin_weights *weights, mat4 *bones, mat4 out
 }
 
 /* Reverses the triangles of mirrored parts, which would otherwise show their inside. */
-static void turn_mirrored(struct kiln_skin *skin)
+static void turn_mirrored(struct kiln_skin *skin, const struct kiln_skin_scratch *scratch)
 {
-    mat4 bones[KILN_MAX_SKIN_BONES], m;
-    place_bones(skin, NULL, 0.0f, bones);
+    mat4 m;
+    place_bones(skin, NULL, 0.0f, scratch);
     for (uint32_t i = 0; i < skin->mesh->triangle_count; i++) {
         uint32_t *corners = skin->mesh->triangles[i];
         const uint32_t second = corners[1];
-        blend(&skin->weights[corners[0]], bones, m);
+        blend(&skin->weights[corners[0]], scratch->bones, m);
         if (mirrors(m)) {
             corners[1] = corners[2];
             corners[2] = second;
@@ -174,175 +199,102 @@ static void turn_mirrored(struct kiln_skin *skin)
     }
 }
 
+/* Adds the morph targets to vertices, with the weights of a moment. */
+static void morph(const struct kiln_skin *skin, const struct kiln_skin_clip *clip, float seconds,
+                  float *weights, float (*vertices)[6])
+{
+    for (uint32_t i = 0; i < skin->morph_count; i++)
+        weights[i] = skin->morphs[i].rest;
+    for (uint32_t i = 0; clip && i < clip->morph_count; i++) {
+        const struct kiln_skin_morph_channel *channel =
+            &skin->morph_channels[clip->first_morph + i];
+        vec4 value = {weights[channel->morph]};
+        read_track(skin, &channel->track, false, seconds, value);
+        weights[channel->morph] = value[0];
+    }
+    for (uint32_t i = 0; i < skin->morph_count; i++) {
+        const struct kiln_skin_delta *deltas = skin->deltas + skin->morphs[i].first;
+        for (uint32_t k = 0; weights[i] != 0.0f && k < skin->morphs[i].count; k++) {
+            float *v = vertices[deltas[k].vertex];
+            for (int c = 0; c < 3; c++) {
+                v[c] += weights[i] * deltas[k].position[c];
+                v[3 + c] += weights[i] * deltas[k].normal[c];
+            }
+        }
+    }
+}
+
 static void pose(const struct kiln_skin *skin, const struct kiln_skin_clip *clip, float seconds,
-                 float (*vertices)[6])
+                 const struct kiln_skin_scratch *scratch, float (*vertices)[6])
 {
-    mat4 bones[KILN_MAX_SKIN_BONES], m;
-    place_bones(skin, clip, seconds, bones);
+    mat4 m;
+    place_bones(skin, clip, seconds, scratch);
+    memcpy(vertices, skin->sources, skin->mesh->vertex_count * sizeof *vertices);
+    morph(skin, clip, seconds, scratch->morphs, vertices);
     for (uint32_t i = 0; i < skin->mesh->vertex_count; i++) {
-        float *v = skin->sources[i];
-        blend(&skin->weights[i], bones, m);
-        glm_mat4_mulv3(m, v, 1.0f, vertices[i]);
+        float *v = vertices[i];
+        blend(&skin->weights[i], scratch->bones, m);
+        glm_mat4_mulv3(m, v, 1.0f, v);
         for (int c = 0; c < 3; c++)
-            vertices[i][c] = bounded(vertices[i][c]);
-        turn_normal(m, v + 3, vertices[i] + 3);
+            v[c] = bounded(v[c]);
+        turn_normal(m, v + 3, v + 3);
     }
 }
 
-void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
-                    float (*vertices)[6])
+struct kiln_skin_scratch *kiln_skin_scratch_create(const struct kiln_skin *skin)
 {
-    pose(skin, &skin->clips[clip], seconds, vertices);
+    struct kiln_skin_scratch *scratch = calloc(1, sizeof *scratch);
+    if (!scratch)
+        return NULL;
+    scratch->nodes = calloc(skin->node_count, sizeof *scratch->nodes);
+    scratch->bones = calloc(skin->bone_count, sizeof *scratch->bones);
+    scratch->morphs = calloc((size_t)skin->morph_count + 1, sizeof *scratch->morphs);
+    if (!scratch->nodes || !scratch->bones || !scratch->morphs)
+        kiln_skin_scratch_destroy(&scratch);
+    return scratch;
 }
 
-void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seconds,
-                         struct kiln_mesh *mesh)
+void kiln_skin_scratch_destroy(struct kiln_skin_scratch **scratch)
 {
-    kiln_skin_pose(skin, clip, seconds, mesh->vertices);
+    if (!*scratch)
+        return;
+    free((*scratch)->nodes);
+    free((*scratch)->bones);
+    free((*scratch)->morphs);
+    free(*scratch);
+    *scratch = NULL;
+}
+
+void kiln_skin_pose(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch, uint32_t clip,
+                    float seconds, float (*vertices)[6])
+{
+    pose(skin, &skin->clips[clip], seconds, scratch, vertices);
+}
+
+void kiln_skin_pose_mesh(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch,
+                         uint32_t clip, float seconds, struct kiln_mesh *mesh)
+{
+    kiln_skin_pose(skin, scratch, clip, seconds, mesh->vertices);
     kiln_mesh_find_bounds(mesh);
-}
-
-/* ---- checking what kiln-decode sent ---------------------------------------------------------- */
-
-struct check {
-    const char *name;
-    const struct kiln_mesh_result *result;
-    struct kiln_error *error;
-};
-
-static bool is_near(const float *values, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabsf(values[i]) <= FARTHEST))
-            return false;
-    }
-    return true;
-}
-
-static bool check_counts(const struct check *check)
-{
-    const struct kiln_skin_result *r = &check->result->skin;
-    bool good = r->node_count >= 1 && r->node_count <= KILN_MAX_SKIN_NODES && r->bone_count >= 1 &&
-                r->bone_count <= KILN_MAX_SKIN_BONES && r->clip_count >= 1 &&
-                r->clip_count <= KILN_MAX_CLIPS && r->channel_count <= KILN_MAX_CLIP_CHANNELS &&
-                r->key_count <= KILN_MAX_CLIP_KEYS;
-    for (uint32_t i = 1; good && i < r->node_count; i++)
-        good = r->nodes[i].parent < i;
-    for (uint32_t i = 0; good && i < r->bone_count; i++)
-        good = r->bones[i].node < r->node_count;
-    /* Ranges must follow one another, since overlapping ranges could make work without end. */
-    uint32_t channels = 0, keys = 0;
-    for (uint32_t i = 0; good && i < r->clip_count; i++) {
-        good = r->clips[i].first == channels && r->clips[i].count <= r->channel_count - channels &&
-               memchr(r->clips[i].name, '\0', KILN_MAX_CLIP_NAME);
-        channels += r->clips[i].count;
-    }
-    for (uint32_t i = 0; good && i < r->channel_count; i++) {
-        good = r->channels[i].node < r->node_count;
-        for (int k = 0; good && k < KILN_CHANNEL_TRACKS; k++) {
-            const struct kiln_skin_track *track = &r->channels[i].tracks[k];
-            good = track->count <= r->key_count - keys &&
-                   (track->count == 0 ? track->first <= keys : track->first == keys);
-            keys += track->count;
-        }
-    }
-    return good ||
-           kiln_error_set(check->error, KILN_INVALID_INPUT,
-                          "%s: the animation is broken: the importer returned inconsistent data",
-                          check->name);
-}
-
-static bool check_matrices(const struct check *check)
-{
-    const struct kiln_skin_result *r = &check->result->skin;
-    bool good = true;
-    for (uint32_t i = 0; i < r->node_count; i++)
-        good &= is_near(&r->nodes[i].rest[0][0], 16);
-    for (uint32_t i = 0; i < r->bone_count; i++)
-        good &= is_near(&r->bones[i].offset[0][0], 16);
-    return good || kiln_error_set(check->error, KILN_INVALID_INPUT,
-                                  "%s: a matrix has numbers beyond -%g and %g", check->name,
-                                  (double)FARTHEST, (double)FARTHEST);
-}
-
-static bool check_track(const struct check *check, const struct kiln_skin_track *track, bool turns)
-{
-    const struct kiln_skin_key *keys = check->result->skin.keys + track->first;
-    for (uint32_t i = 0; i < track->count; i++) {
-        struct kiln_skin_key key = keys[i];
-        const float seconds = key.seconds;
-        if (!(seconds >= 0.0f && seconds <= FARTHEST) ||
-            (i > 0 && !(seconds > keys[i - 1].seconds)))
-            return kiln_error_set(check->error, KILN_INVALID_INPUT,
-                                  "%s: a key lies at %g s; allowed are times from 0 s to %g s, "
-                                  "each later than the time of the key before it",
-                                  check->name, (double)seconds, (double)FARTHEST);
-        const float square = glm_quat_dot(key.value, key.value);
-        if (!is_near(key.value, 4) || (turns && !(square > 0.25f && square < 4.0f)))
-            return kiln_error_set(check->error, KILN_INVALID_INPUT,
-                                  "%s: the key at %g s has the value %g %g %g %g; allowed are "
-                                  "numbers within -%g and %g, and unit quaternions for rotations",
-                                  check->name, (double)seconds, (double)key.value[0],
-                                  (double)key.value[1], (double)key.value[2], (double)key.value[3],
-                                  (double)FARTHEST, (double)FARTHEST);
-    }
-    return true;
-}
-
-static bool check_tracks(const struct check *check)
-{
-    const struct kiln_skin_result *r = &check->result->skin;
-    for (uint32_t i = 0; i < r->channel_count; i++) {
-        for (int k = 0; k < KILN_CHANNEL_TRACKS; k++) {
-            if (!check_track(check, &r->channels[i].tracks[k], k == KILN_CHANNEL_TURN))
-                return false;
-        }
-    }
-    return true;
-}
-
-static bool check_weights(const struct check *check)
-{
-    const struct kiln_skin_result *r = &check->result->skin;
-    for (uint32_t i = 0; i < check->result->vertex_count; i++) {
-        float sum = 0.0f;
-        bool good = true;
-        for (int k = 0; k < KILN_SKIN_INFLUENCES; k++) {
-            good &= r->weights[i].weights[k] >= 0.0f && r->weights[i].bones[k] < r->bone_count;
-            sum += r->weights[i].weights[k];
-        }
-        if (!good || !(fabsf(sum - 1.0f) <= 0.01f))
-            return kiln_error_set(check->error, KILN_INVALID_INPUT,
-                                  "%s: the weights of vertex %u sum to %g; allowed are numbers of "
-                                  "at least 0 that sum to 1, as floats",
-                                  check->name, i, (double)sum);
-    }
-    return true;
 }
 
 /* ---- making a skin --------------------------------------------------------------------------- */
 
-/* Adds normals where a file has none, as sums of the triangles' area vectors. */
-static void add_normals(struct kiln_skin *skin)
+/* Scales quaternions to length 1, and finds the lengths of the clips. */
+static void normalize_clip(struct kiln_skin *skin, struct kiln_skin_clip *clip)
 {
-    const struct kiln_mesh *mesh = skin->mesh;
-    for (uint32_t i = 0; i < mesh->vertex_count; i++)
-        memset(skin->sources[i] + 3, 0, 3 * sizeof(float));
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        const uint32_t *corners = mesh->triangles[i];
-        const float *a = skin->sources[corners[0]], *b = skin->sources[corners[1]];
-        const float *c = skin->sources[corners[2]];
-        for (int n = 0; n < 3; n++) {
-            const int p = (n + 1) % 3, q = (n + 2) % 3;
-            const float area = (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
-            for (int k = 0; k < 3; k++)
-                skin->sources[corners[k]][3 + n] += area;
+    for (uint32_t c = 0; c < clip->count * KILN_CHANNEL_TRACKS; c++) {
+        const uint32_t kind = c % KILN_CHANNEL_TRACKS;
+        const struct kiln_skin_track *track =
+            &skin->channels[clip->first + c / KILN_CHANNEL_TRACKS].tracks[kind];
+        const uint32_t parts = kiln_skin_parts(track);
+        for (uint32_t k = 0; k < track->count; k++) {
+            struct kiln_skin_key *key = &skin->keys[track->first + k];
+            if (kind == KILN_CHANNEL_TURN && k % parts == parts / 2)
+                glm_quat_normalize(key->value);
+            clip->length = fmaxf(clip->length, key->seconds);
         }
     }
-    /* The sums are scaled to length 1, since squares of small areas would underflow. */
-    mat4 same = GLM_MAT4_IDENTITY_INIT;
-    for (uint32_t i = 0; i < mesh->vertex_count; i++)
-        turn_normal(same, skin->sources[i] + 3, skin->sources[i] + 3);
 }
 
 /* Makes weights sum to 1 and quaternions have length 1, up to rounding. */
@@ -354,26 +306,16 @@ static void normalize(struct kiln_skin *skin)
         for (int k = 0; k < KILN_SKIN_INFLUENCES; k++)
             weights[k] /= sum;
     }
-    for (uint32_t i = 0; i < skin->clip_count; i++) {
-        const struct kiln_skin_clip *clip = &skin->clips[i];
-        for (uint32_t c = 0; c < clip->count * KILN_CHANNEL_TRACKS; c++) {
-            const uint32_t kind = c % KILN_CHANNEL_TRACKS;
-            const struct kiln_skin_track *track =
-                &skin->channels[clip->first + c / KILN_CHANNEL_TRACKS].tracks[kind];
-            for (uint32_t k = track->first; k < track->first + track->count; k++) {
-                struct kiln_skin_key *key = &skin->keys[k];
-                if (kind == KILN_CHANNEL_TURN)
-                    glm_quat_normalize(key->value);
-                skin->lengths[i] = fmaxf(skin->lengths[i], key->seconds);
-            }
-        }
-    }
+    for (uint32_t i = 0; i < skin->clip_count; i++)
+        normalize_clip(skin, &skin->clips[i]);
 }
 
 static void *copy_of(const void *from, size_t count, size_t size)
 {
     void *copy = calloc(count ? count : 1, size);
-    return copy ? memcpy(copy, from, count * size) : NULL;
+    if (copy && count > 0)
+        memcpy(copy, from, count * size);
+    return copy;
 }
 
 static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh *mesh)
@@ -388,42 +330,60 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     skin->weights = copy_of(r->weights, mesh->vertex_count, sizeof *r->weights);
     skin->channels = copy_of(r->channels, r->channel_count, sizeof *r->channels);
     skin->keys = copy_of(r->keys, r->key_count, sizeof *r->keys);
+    skin->nodes = copy_of(r->nodes, r->node_count, sizeof *r->nodes);
+    skin->bones = copy_of(r->bones, r->bone_count, sizeof *r->bones);
+    skin->clips = copy_of(r->clips, r->clip_count, sizeof *r->clips);
+    skin->morphs = copy_of(r->morphs, r->morph_count, sizeof *r->morphs);
+    skin->morph_channels =
+        copy_of(r->morph_channels, r->morph_channel_count, sizeof *r->morph_channels);
+    skin->deltas = copy_of(r->deltas, r->delta_count, sizeof *r->deltas);
     skin->node_count = r->node_count;
     skin->bone_count = r->bone_count;
     skin->clip_count = r->clip_count;
-    memcpy(skin->nodes, r->nodes, sizeof skin->nodes);
-    memcpy(skin->bones, r->bones, sizeof skin->bones);
-    memcpy(skin->clips, r->clips, sizeof skin->clips);
+    skin->morph_count = r->morph_count;
+    if (!skin->sources || !skin->weights || !skin->channels || !skin->keys || !skin->nodes ||
+        !skin->bones || !skin->clips || !skin->morphs || !skin->morph_channels || !skin->deltas)
+        kiln_skin_destroy(&skin);
+    return skin;
+}
+
+/* Names go into messages, so control characters are replaced. */
+static void clean_names(struct kiln_skin *skin)
+{
     for (uint32_t i = 0; i < skin->clip_count; i++) {
-        /* names go into messages, so control characters are replaced */
         for (char *c = skin->clips[i].name; *c; c++) {
             if ((unsigned char)*c < ' ' || *c == 127)
                 *c = ' ';
         }
     }
-    if (!skin->sources || !skin->weights || !skin->channels || !skin->keys) {
+}
+
+/* Makes a skin of numbers that were checked. NULL when memory is short. */
+static struct kiln_skin *make(const struct kiln_skin_result *r, struct kiln_mesh *mesh)
+{
+    struct kiln_skin *skin = copy(r, mesh);
+    struct kiln_skin_scratch *scratch = skin ? kiln_skin_scratch_create(skin) : NULL;
+    if (!scratch) {
         kiln_skin_destroy(&skin);
         return NULL;
     }
-    if (!r->has_normals)
-        add_normals(skin);
+    clean_names(skin);
     normalize(skin);
-    turn_mirrored(skin);
-    pose(skin, NULL, 0.0f, mesh->vertices);
+    turn_mirrored(skin, scratch);
+    pose(skin, NULL, 0.0f, scratch, mesh->vertices);
     kiln_mesh_find_bounds(mesh);
+    kiln_skin_scratch_destroy(&scratch);
     return skin;
 }
 
 struct kiln_skin *kiln_skin_take(const char *name, const struct kiln_mesh_result *result,
                                  struct kiln_mesh *mesh, struct kiln_error *error)
 {
-    const struct check check = {name, result, error};
-    if (!check_counts(&check) || !check_matrices(&check) || !check_tracks(&check) ||
-        !check_weights(&check)) {
+    if (!kiln_skin_check(name, result, error)) {
         kiln_mesh_destroy(&mesh);
         return NULL;
     }
-    struct kiln_skin *skin = copy(&result->skin, mesh);
+    struct kiln_skin *skin = make(&result->skin, mesh);
     if (!skin)
         kiln_error_no_memory(error, "reading the mesh of %s", name);
     return skin;
@@ -438,6 +398,12 @@ void kiln_skin_destroy(struct kiln_skin **skin)
     free((*skin)->weights);
     free((*skin)->channels);
     free((*skin)->keys);
+    free((*skin)->nodes);
+    free((*skin)->bones);
+    free((*skin)->clips);
+    free((*skin)->morphs);
+    free((*skin)->morph_channels);
+    free((*skin)->deltas);
     free(*skin);
     *skin = NULL;
 }
@@ -495,5 +461,5 @@ const char *kiln_skin_clip_name(const struct kiln_skin *skin, uint32_t clip)
 
 float kiln_skin_clip_length(const struct kiln_skin *skin, uint32_t clip)
 {
-    return skin->lengths[clip];
+    return skin->clips[clip].length;
 }

@@ -110,7 +110,7 @@ static const char *kind_name(enum kiln_decode_kind kind)
 
 /* Chooses the environment of the process: the folders of libraries, and the variables of kiln and
  * of sanitizers. Variables with keys and passwords of a service do not reach it. malloc is told to
- * use large pages, for all kinds alike, since Assimp takes and fills 16 MiB for every OBJ file
+ * use large pages, for all kinds alike, since readers take and fill many MiB at once
  * (docs/speed-log.md, "Start, memory, states"). The caller frees the array. */
 static char **choose_environment(void)
 {

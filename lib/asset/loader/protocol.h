@@ -19,7 +19,8 @@
     X(EXR, "exr")         /* a layer of an EXR file, by OpenEXR; HDR */                            \
     X(OPENEXR, "openexr") /* the EXR files that need OpenEXR's C++ */                              \
     X(VIDEO, "video")                                                                              \
-    X(MESH, "mesh")
+    X(MESH, "mesh")                                                                                \
+    X(DRACO, "draco") /* the glTF files that need Draco */
 
 enum kiln_decode_kind {
 #define KILN_DECODE_ID(id, word) KILN_DECODE_##id,
@@ -46,7 +47,13 @@ enum kiln_picture_format {
     KILN_PICTURE_HDR,
 };
 
-enum kiln_mesh_format { KILN_MESH_OBJ, KILN_MESH_GLTF, KILN_MESH_GLB };
+enum kiln_mesh_format {
+    KILN_MESH_OBJ,
+    KILN_MESH_GLTF,
+    KILN_MESH_GLB,
+    KILN_MESH_PLY,
+    KILN_MESH_STL,
+};
 
 /* Asks for a file to be decoded. The file's descriptor is sent with it. A video needs one request
  * for all of its frames. */
@@ -88,7 +95,8 @@ enum kiln_decode_what {
     /* A mesh names another file; the text is that name. kiln sends a struct kiln_decode_file. */
     KILN_DECODE_NEEDS_FILE,
 
-    /* Describes a mesh. Its arrays follow, as kiln_mesh_visit_arrays lists them. */
+    /* Describes a mesh; the text has notes for the user. Its arrays follow, as
+     * kiln_mesh_visit_arrays lists them. */
     KILN_DECODE_MESH_MADE,
 
     /* Only a process of another kind can decode the picture: one of kind KILN_DECODE_OPENEXR an
@@ -104,8 +112,8 @@ struct kiln_decode_answer {
     uint32_t width, height, channels, type, srgb, premultiplied, pages;
     uint32_t data;                                         /* of a layer: it holds no light */
     uint32_t vertices, triangles;                          /* of a mesh: counts */
-    uint32_t has_normals;                                  /* of a mesh that moves */
-    uint32_t nodes, bones, clips, channels_of_clips, keys; /* counts of the same */
+    uint32_t nodes, bones, clips, channels_of_clips, keys; /* of a mesh that moves: counts */
+    uint32_t morphs, morph_channels, deltas;               /* of the same */
 };
 
 /* Answers KILN_DECODE_NEEDS_FILE. The file's descriptor is sent with it if is_open. */

@@ -43,7 +43,11 @@ $ (cd inside && ../atlas link.png)
 
 Nobody is left when kiln is killed while a mesh is imported.
 
-$ python3 -c 'print("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 1000000)' >slow.obj
+$ python3 - >slow.obj <<'P'
+> count = 20000 # corners of one polygon, which crosses itself everywhere
+> print("\n".join(f"v {i * 7919 % 10007} {i * i % 10007} 0" for i in range(count)))
+> print("f", *range(1, count + 1))
+> P
 $ ./mesh lines.obj 2>/dev/null; sed -i s/lines/slow/ scene.yaml
 $ exec 2>/dev/null; set -m; kiln check -q scene.yaml & sleep 0.5; pgrep -r R,S,D -g $! | wc -l; kill -KILL $!; wait; sleep 1; pgrep -r R,S,D -g $! | wc -l
 1|2

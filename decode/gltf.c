@@ -1,0 +1,299 @@
+/* This file reads glTF 2 documents: it finds the JSON of a text or binary file, checks the version
+ * and the extensions that the file requires, and has the other files beside it (gltf.h) make kiln's
+ * arrays. glTF 1 is another format, which is refused by its name. */
+#include "gltf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/* ---- parts of the document ------------------------------------------------------------------- */
+
+uint32_t gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number)
+{
+    return number < g->lists[list].count ? g->lists[list].values[number] : JSON_NONE;
+}
+
+static const char *const list_keys[GLTF_LISTS] = {
+    [GLTF_ACCESSORS] = "accessors", [GLTF_ANIMATIONS] = "animations", [GLTF_BUFFERS] = "buffers",
+    [GLTF_MATERIALS] = "materials", [GLTF_MESHES] = "meshes",         [GLTF_NODES] = "nodes",
+    [GLTF_SCENES] = "scenes",       [GLTF_SKINS] = "skins",           [GLTF_VIEWS] = "bufferViews"};
+
+bool gltf_reference(struct gltf *g, uint32_t object, const char *key, enum gltf_list_name list,
+                    uint32_t *number)
+{
+    const uint32_t value = json_member(&g->json, object, key);
+    *number = JSON_NONE;
+    if (value == JSON_NONE ||
+        (json_index(&g->json, value, number) && *number < g->lists[list].count))
+        return true;
+    return GLTF_SET(g, "a member '%s' is no number of an element of '%s', of which there are %u",
+                    key, list_keys[list], g->lists[list].count);
+}
+
+uint32_t gltf_extension(const struct gltf *g, uint32_t object, const char *name)
+{
+    const uint32_t found = json_member(&g->json, json_member(&g->json, object, "extensions"), name);
+    return json_is_object(&g->json, found) ? found : JSON_NONE;
+}
+
+bool gltf_requires(const struct gltf *g, const char *extension)
+{
+    const uint32_t list = json_member(&g->json, 0, "extensionsRequired");
+    for (uint32_t i = json_first(&g->json, list); i != JSON_NONE;
+         i = json_after(&g->json, list, i)) {
+        if (json_is(&g->json, i, extension))
+            return true;
+    }
+    return false;
+}
+
+void gltf_note(struct gltf *g, const char *text)
+{
+    const size_t length = strlen(g->notes), more = strlen(text);
+    if (strstr(g->notes, text) || length + more + 2 > KILN_MESSAGE_SIZE)
+        return;
+    snprintf(g->notes + length, KILN_MESSAGE_SIZE - length, "%s%s", length ? "\n" : "", text);
+}
+
+static bool find_list(struct gltf *g, enum gltf_list_name name)
+{
+    const uint32_t array = json_member(&g->json, 0, list_keys[name]);
+    struct gltf_list *list = &g->lists[name];
+    const uint32_t count = json_count(&g->json, array);
+    if (count == 0)
+        return true;
+    list->values = malloc(count * sizeof *list->values);
+    if (!list->values)
+        return decode_out_of_memory(g->error);
+    for (uint32_t i = json_first(&g->json, array); i != JSON_NONE;
+         i = json_after(&g->json, array, i))
+        list->values[list->count++] = i;
+    return true;
+}
+
+/* ---- extensions ------------------------------------------------------------------------------ */
+
+/* Extensions that say how vertices, nodes or clips are stored, and that are read. */
+static const char *const supported[] = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_texture_transform",
+};
+
+/* Returns whether an extension concerns how surfaces look, light, or data about the file, none of
+ * which changes where vertices are. Such extensions are called after what they concern. */
+static bool is_of_looks(const char *name)
+{
+    static const char *const words[] = {"material", "texture", "light", "technique", "environment",
+                                        "metadata", "xmp",     "audio", "mdl",       "packing"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (strcasestr(name, words[i]))
+            return true;
+    }
+    return false;
+}
+
+static bool check_extension(struct gltf *g, uint32_t value)
+{
+    char name[100], note[256];
+    if (json_text(&g->json, value, name, sizeof name) >= sizeof name)
+        return GLTF_SET(g, "the file requires an extension whose name is longer than %zu bytes",
+                        sizeof name - 1);
+    for (size_t i = 0; i < sizeof supported / sizeof *supported; i++) {
+        if (strcmp(name, supported[i]) == 0)
+            return true;
+    }
+    if (!is_of_looks(name))
+        return GLTF_SET(g, "the file requires the extension '%s', which kiln does not read", name);
+    snprintf(note, sizeof note,
+             "the file requires the extension '%s', which kiln does not read: the mesh has its "
+             "shape, and may look different",
+             name);
+    gltf_note(g, note);
+    return true;
+}
+
+static bool check_extensions(struct gltf *g)
+{
+    const uint32_t list = json_member(&g->json, 0, "extensionsRequired");
+    for (uint32_t i = json_first(&g->json, list); i != JSON_NONE;
+         i = json_after(&g->json, list, i)) {
+        if (!check_extension(g, i))
+            return false;
+    }
+    g->needs_meshopt =
+        gltf_requires(g, "EXT_meshopt_compression") || gltf_requires(g, "KHR_meshopt_compression");
+    g->needs_draco = gltf_requires(g, "KHR_draco_mesh_compression");
+    return true;
+}
+
+/* ---- versions -------------------------------------------------------------------------------- */
+
+static bool refuse_version(const struct gltf *g, const char *found)
+{
+    if (strcmp(found, "1.0") == 0 || strcmp(found, "1.1") == 0)
+        found = "1";
+    return GLTF_SET(g,
+                    "the file is of glTF version %.20s; kiln reads version 2, to which Blender "
+                    "or another program converts it",
+                    found);
+}
+
+/* Checks the version that is the least for a reader to know, or that of the file. */
+static bool check_version(struct gltf *g)
+{
+    char text[32] = "";
+    const uint32_t asset = json_member(&g->json, 0, "asset");
+    uint32_t version = json_member(&g->json, asset, "minVersion");
+    if (version == JSON_NONE)
+        version = json_member(&g->json, asset, "version");
+    if (json_text(&g->json, version, text, sizeof text) == 0) {
+        /* the first files of version 1 have no `asset`, or one without a version */
+        const bool is_first = json_is_object(&g->json, json_member(&g->json, 0, "meshes"));
+        return is_first ? refuse_version(g, "1")
+                        : GLTF_SET(g, "the file does not say of which version of glTF it is: "
+                                      "'asset.version' is missing; allowed is \"2.0\"");
+    }
+    return (text[0] == '2' && text[1] == '.') || strcmp(text, "2") == 0 || refuse_version(g, text);
+}
+
+/* ---- the file -------------------------------------------------------------------------------- */
+
+enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
+
+static uint32_t word_at(const unsigned char *b)
+{
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+/* Finds the JSON of a binary file, and its buffer. */
+static bool find_chunks(struct gltf *g, const char **json, size_t *size)
+{
+    const unsigned char *bytes = g->wanted->bytes;
+    const size_t all = g->wanted->size;
+    char version[16];
+    if (all < GLB_HEADER + CHUNK_HEADER || memcmp(bytes, "glTF", 4) != 0)
+        return GLTF_SET(g, "the contents of the file are not those of a .glb file");
+    if (word_at(bytes + 4) != 2) {
+        snprintf(version, sizeof version, "%u", word_at(bytes + 4));
+        return refuse_version(g, version);
+    }
+    if (word_at(bytes + 8) > all)
+        return GLTF_SET(g, "the file is cut short: it has %zu bytes, and its header says %u", all,
+                        word_at(bytes + 8));
+    const size_t length = word_at(bytes + GLB_HEADER), start = GLB_HEADER + CHUNK_HEADER;
+    if (memcmp(bytes + GLB_HEADER + 4, "JSON", 4) != 0 || length > all - start)
+        return GLTF_SET(g, "the file is cut short, or its first chunk is not the JSON");
+    *json = (const char *)bytes + start;
+    *size = length;
+    const size_t next = start + length;
+    if (all - next < CHUNK_HEADER || memcmp(bytes + next + 4, "BIN\0", 4) != 0)
+        return true;
+    const size_t binary = word_at(bytes + next), left = all - next - CHUNK_HEADER;
+    g->chunk.bytes = bytes + next + CHUNK_HEADER;
+    g->chunk.size = binary;
+    return binary <= left ||
+           GLTF_SET(g, "the file is cut short: its binary chunk has %zu bytes of %zu", left,
+                    binary);
+}
+
+static bool find_json(struct gltf *g, const char **json, size_t *size)
+{
+    *json = g->wanted->bytes;
+    *size = g->wanted->size;
+    if (g->wanted->format == KILN_MESH_GLB && !find_chunks(g, json, size))
+        return false;
+    /* some programs pad chunks with zeros instead of spaces */
+    while (*size > 0 && (*json)[*size - 1] == '\0')
+        --*size;
+    return true;
+}
+
+static bool read_document(struct gltf *g)
+{
+    const char *text = NULL;
+    size_t size = 0;
+    if (!find_json(g, &text, &size) || !json_init(&g->json, text, size, g->error))
+        return false;
+    if (!json_is_object(&g->json, 0))
+        return GLTF_SET(g, "the JSON is no object");
+    if (!check_version(g) || !check_extensions(g))
+        return false;
+    for (int i = 0; i < GLTF_LISTS; i++) {
+        if (!find_list(g, (enum gltf_list_name)i))
+            return false;
+    }
+    return true;
+}
+
+/* ---- Draco ----------------------------------------------------------------------------------- */
+
+/* Returns whether a primitive's own accessors have its data, so that those of Draco are not needed.
+ */
+static bool has_own_data(const struct gltf *g, uint32_t primitive)
+{
+    const struct json *json = &g->json;
+    const uint32_t attributes = json_member(json, primitive, "attributes");
+    uint32_t number = 0;
+    if (g->needs_draco || !json_index(json, json_member(json, attributes, "POSITION"), &number))
+        return false;
+    const uint32_t accessor = gltf_element(g, GLTF_ACCESSORS, number);
+    return json_member(json, accessor, "bufferView") != JSON_NONE;
+}
+
+uint32_t gltf_draco_of(const struct gltf *g, uint32_t primitive)
+{
+    const uint32_t found = gltf_extension(g, primitive, "KHR_draco_mesh_compression");
+    return found == JSON_NONE || has_own_data(g, primitive) ? JSON_NONE : found;
+}
+
+static bool has_draco(const struct gltf *g)
+{
+    const struct json *json = &g->json;
+    for (uint32_t i = 0; i < g->lists[GLTF_MESHES].count; i++) {
+        const uint32_t list = json_member(json, g->lists[GLTF_MESHES].values[i], "primitives");
+        for (uint32_t p = json_first(json, list); p != JSON_NONE; p = json_after(json, list, p)) {
+            if (gltf_draco_of(g, p) != JSON_NONE)
+                return true;
+        }
+    }
+    return false;
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+static void finish(struct gltf *g)
+{
+    for (uint32_t i = 0; g->buffers && i < g->lists[GLTF_BUFFERS].count; i++)
+        free(g->buffers[i].owned);
+    for (uint32_t i = 0; g->views && i < g->lists[GLTF_VIEWS].count; i++)
+        free(g->views[i].owned);
+    free(g->buffers);
+    free(g->views);
+    free(g->nodes);
+    free(g->order);
+    for (int i = 0; i < GLTF_LISTS; i++)
+        free(g->lists[i].values);
+    json_finish(&g->json);
+}
+
+static bool make_surface(struct gltf *g, struct kiln_mesh_result *result)
+{
+    struct decode_model model = {0};
+    const bool ok = gltf_still(g, &model) && decode_surface(g->wanted, &model, result, g->error);
+    decode_model_finish(&model);
+    return ok;
+}
+
+bool decode_gltf(const struct decode_mesh *mesh, struct kiln_mesh_result *result, bool *needs_other,
+                 struct kiln_error *error)
+{
+    struct gltf g = {.wanted = mesh, .error = error, .notes = result->notes};
+    bool ok = read_document(&g);
+    *needs_other = ok && has_draco(&g) && !decode_draco_is_ready();
+    ok = ok && !*needs_other && gltf_open_buffers(&g) && gltf_find_nodes(&g) &&
+         (mesh->moving ? gltf_moving(&g, result) : make_surface(&g, result));
+    finish(&g);
+    return ok;
+}

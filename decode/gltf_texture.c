@@ -1,0 +1,64 @@
+/* This file moves the texture coordinates of a primitive to where its base colour texture is looked
+ * up (KHR_texture_transform). Files with integers as coordinates depend on it: the transform gives
+ * them their scale. */
+#include <stddef.h>
+
+#include "gltf.h"
+
+/* Finds sine and cosine, within 1e-15 for angles of up to a thousand turns. They are sums of a
+ * series, since a library's functions differ from machine to machine. */
+static void find_sine(double angle, double *sine, double *cosine)
+{
+    const double quarter = 1.5707963267948966, rest_of_quarter = 6.123233995736766e-17;
+    const double turns = angle / quarter;
+    const long count =
+        turns > -4000.0 && turns < 4000.0 ? (long)(turns + (turns < 0 ? -0.5 : 0.5)) : 0;
+    const double x = angle - (double)count * quarter - (double)count * rest_of_quarter;
+    double s = 0.0, c = 0.0, term = 1.0;
+    for (int i = 0; i < 20; i++) {
+        *(i % 2 ? &s : &c) += i % 4 < 2 ? term : -term;
+        term *= x / (i + 1);
+    }
+    const long part = (count % 4 + 4) % 4;
+    *sine = part == 0 ? s : part == 1 ? c : part == 2 ? -s : -c;
+    *cosine = part == 0 ? c : part == 1 ? -s : part == 2 ? -c : s;
+}
+
+static double number_of(const struct gltf *g, uint32_t value, double otherwise)
+{
+    double number = otherwise;
+    return json_number(&g->json, value, &number) ? number : otherwise;
+}
+
+/* Gets a pair of numbers. */
+static void get_pair(const struct gltf *g, uint32_t array, double otherwise, double pair[2])
+{
+    const uint32_t first = json_first(&g->json, array);
+    const uint32_t second = first == JSON_NONE ? JSON_NONE : json_after(&g->json, array, first);
+    pair[0] = number_of(g, first, otherwise);
+    pair[1] = number_of(g, second, otherwise);
+}
+
+bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive)
+{
+    const uint32_t material = gltf_element(g, GLTF_MATERIALS, primitive->material);
+    const uint32_t looks = json_member(&g->json, material, "pbrMetallicRoughness");
+    const uint32_t texture = json_member(&g->json, looks, "baseColorTexture");
+    const uint32_t transform = gltf_extension(g, texture, "KHR_texture_transform");
+    uint32_t set = json_member(&g->json, transform, "texCoord");
+    if (set == JSON_NONE)
+        set = json_member(&g->json, texture, "texCoord");
+    if (transform == JSON_NONE || !primitive->uvs || number_of(g, set, 0.0) != 0.0)
+        return true;
+    double offset[2], scale[2], sine, cosine;
+    get_pair(g, json_member(&g->json, transform, "offset"), 0.0, offset);
+    get_pair(g, json_member(&g->json, transform, "scale"), 1.0, scale);
+    find_sine(number_of(g, json_member(&g->json, transform, "rotation"), 0.0), &sine, &cosine);
+    for (size_t i = 0; i < primitive->vertex_count; i++) {
+        float *uv = primitive->uvs[i];
+        const double u = scale[0] * (double)uv[0], v = scale[1] * (double)uv[1];
+        uv[0] = (float)(cosine * u + sine * v + offset[0]);
+        uv[1] = (float)(cosine * v - sine * u + offset[1]);
+    }
+    return true;
+}

@@ -1,0 +1,53 @@
+/* Declares a model: what a reader of mesh files finds in a file. surface.c makes one surface of a
+ * model that does not move, skin.c the parts of one that moves. */
+#ifndef KILN_DECODE_MODEL_H
+#define KILN_DECODE_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kiln.h"
+
+/* Triangles that have one material. Corners are numbers of vertices, and vertices need not differ.
+ */
+struct decode_model_mesh {
+    size_t vertex_count, triangle_count;
+    float (*positions)[3];
+    float (*normals)[3]; /* of any length; NULL: the file has none */
+    float (*uvs)[2];     /* NULL: none */
+    uint32_t (*triangles)[3];
+    uint32_t material; /* by which the triangles of a surface are ordered */
+};
+
+/* A mesh as a node of the file places it. */
+struct decode_model_part {
+    size_t mesh;
+    double rows[3][4]; /* the matrix that takes its vertices to their places */
+};
+
+/* The parts are in the order of the file. A model that moves has nodes, too. */
+struct decode_model {
+    struct decode_model_mesh *meshes;
+    size_t mesh_count;
+    struct decode_model_part *parts;
+    size_t part_count;
+};
+
+/* Gives an empty model as many meshes, which are empty, and a part for each that leaves it where it
+ * is. False: memory is short. */
+bool decode_model_allocate(struct decode_model *model, size_t count);
+
+void decode_model_finish(struct decode_model *model);
+
+/* A corner of a triangle. */
+struct decode_corner {
+    float position[3], normal[3], uv[2];
+    bool has_normal;
+};
+
+/* Computes the normals of corners that have none, of three corners a triangle: edges up to 50
+ * degrees are smooth, others are creases (surface.c). */
+bool decode_find_normals(struct decode_corner *corners, size_t count, struct kiln_error *error);
+
+#endif
