@@ -166,7 +166,8 @@ TABLE(mesh) = {
     VALUE(MOTION, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1",
           "Metres per unit of the file."),
     SWITCH(MOTION, "animation", animation, animation.enabled, "none",
-           "An animation of the glTF or GLB file: it moves nodes, and bones that vertices follow."),
+           "An animation of the glTF or GLB file: it moves nodes, bones that vertices follow, and "
+           "morph targets."),
     REFLECTANCE,
     BOOLEAN(MOTION, "collide", collide, "false",
             "Particles of systems that collide bounce off it."),

@@ -476,7 +476,8 @@ add('weights-of-more-joints', (b) => {
         return primitive;
     } });
     for (let i = 0; i < 3; i++)
-        b.json.skins[0].joints.push(b.node({ translation: [i, 2, 1], rotation: turn([i, 1, 0], 20) }));
+        b.json.skins[0].joints.push(b.node({ translation: [i, 2, 1], rotation: turn([i, 1, 0], 20) }, false));
+    b.json.nodes[1].children = [0, ...b.json.skins[0].joints.slice(2)];
 }, 'text', 'noted more than 4 joints move some vertices: those with the largest weights do');
 add('extension-of-materials', (b) => {
     b.uses('KHR_materials_unlit');
