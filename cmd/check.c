@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "command.h"
 #include "event.h"
@@ -38,6 +39,19 @@ static bool print_work(const struct kiln_scene_info *info)
                   info->steps, info->particle_capacity, info->memory_bytes >> 20) >= 0;
 }
 
+/* Prints notes of the reader of a mesh, which are lines. */
+static void print_notes(const char *notes)
+{
+    char text[KILN_MESSAGE_SIZE], shown[KILN_MESSAGE_SIZE];
+    for (const char *at = notes; *at;) {
+        const size_t length = strcspn(at, "\n");
+        snprintf(text, sizeof text, "%.*s", (int)length, at);
+        kiln_shown(shown, sizeof shown, text);
+        printf("#   note: %s\n", shown);
+        at += length + (at[length] == '\n');
+    }
+}
+
 /* Prints what a mesh is, as YAML comments: its size, and whether it has an inside. */
 static void print_mesh(void *user, const struct kiln_mesh_info *info)
 {
@@ -49,18 +63,22 @@ static void print_mesh(void *user, const struct kiln_mesh_info *info)
            text, info->format, info->triangles, info->triangles == 1 ? "" : "s", info->vertices,
            (double)info->min[0], (double)info->min[1], (double)info->min[2], (double)info->max[0],
            (double)info->max[1], (double)info->max[2]);
-    if (info->open)
+    if (*info->open)
         printf("#   not closed: %s\n", info->open);
     else if (isfinite(info->thinnest))
         printf("#   closed, its thinnest part %.4g\n", info->thinnest);
     else
         printf("#   closed\n");
     if (info->joints > 0)
-        printf("#   %" PRIu32 " joints\n", info->joints);
+        printf("#   %" PRIu32 " joint%s\n", info->joints, info->joints == 1 ? "" : "s");
+    if (info->morph_targets > 0)
+        printf("#   %" PRIu32 " morph target%s\n", info->morph_targets,
+               info->morph_targets == 1 ? "" : "s");
     for (uint32_t i = 0; i < info->clip_count; i++) {
         kiln_shown(text, sizeof text, info->clips[i].name);
         printf("#   clip %" PRIu32 " '%s' of %.4g s\n", i, text, info->clips[i].seconds);
     }
+    print_notes(info->notes);
 }
 
 /* Prints the hash of a scene, or the scene and its work. With `several` scenes, the path is

@@ -286,6 +286,21 @@ static bool make_surface(struct gltf *g, struct kiln_mesh_result *result)
     return ok;
 }
 
+/* Counts the morph targets of the meshes that the scene shows. Primitives of a mesh have the same.
+ */
+static uint32_t count_targets(const struct gltf *g)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < g->order_count; i++) {
+        const struct gltf_node *node = &g->nodes[g->order[i]];
+        const uint32_t mesh = gltf_element(g, GLTF_MESHES, node->shown ? node->mesh : JSON_NONE);
+        const uint32_t list = json_member(&g->json, mesh, "primitives");
+        const uint32_t first = json_first(&g->json, list);
+        count += json_count(&g->json, json_member(&g->json, first, "targets"));
+    }
+    return count < UINT32_MAX ? (uint32_t)count : UINT32_MAX;
+}
+
 bool decode_gltf(const struct decode_mesh *mesh, struct kiln_mesh_result *result, bool *needs_other,
                  struct kiln_error *error)
 {
@@ -294,6 +309,8 @@ bool decode_gltf(const struct decode_mesh *mesh, struct kiln_mesh_result *result
     *needs_other = ok && has_draco(&g) && !decode_draco_is_ready();
     ok = ok && !*needs_other && gltf_open_buffers(&g) && gltf_find_nodes(&g) &&
          (mesh->moving ? gltf_moving(&g, result) : make_surface(&g, result));
+    if (ok)
+        result->morph_target_count = count_targets(&g);
     finish(&g);
     return ok;
 }

@@ -288,6 +288,7 @@ static void send_mesh(const struct kiln_decode_request *request, struct kiln_mes
     struct kiln_decode_answer answer = {.what = KILN_DECODE_MESH_MADE,
                                         .vertices = result->vertex_count,
                                         .triangles = result->triangle_count,
+                                        .morph_targets = result->morph_target_count,
                                         .nodes = skin->node_count,
                                         .bones = skin->bone_count,
                                         .clips = skin->clip_count,

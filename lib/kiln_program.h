@@ -89,10 +89,12 @@ struct kiln_mesh_info {
     uint32_t triangles, vertices;
     float min[3], max[3]; /* bounds of the rest pose, in units of the file */
     uint32_t joints;      /* bones that move vertices */
+    uint32_t morph_targets;
     const struct kiln_mesh_clip *clips;
     uint32_t clip_count;
-    const char *open; /* where it is open; NULL: it is closed */
-    double thinnest;  /* of a closed mesh: its thinnest part, in units of the file; or infinite */
+    const char *open;  /* where it is open; "": it is closed */
+    const char *notes; /* what was changed or left out: a line each, none at the end */
+    double thinnest;   /* of a closed mesh: its thinnest part, in units of the file; or infinite */
 };
 
 /* Visits the meshes of a scene, in the order of their paths; the texts are valid during the visit.

@@ -39,28 +39,27 @@ static bool tell(void *user, const char *path, const struct kiln_mesh *mesh,
                  const struct kiln_skin *skin)
 {
     const struct telling *telling = user;
-    struct kiln_error error = {0};
+    struct kiln_opening opening;
     struct kiln_mesh_clip clips[KILN_MAX_CLIPS];
     struct kiln_mesh_info info = {.path = below_root(telling->scene, path),
                                   .format = format_of(path),
                                   .triangles = mesh->triangle_count,
                                   .vertices = mesh->vertex_count,
                                   .joints = skin ? kiln_skin_bone_count(skin) : 0,
+                                  .morph_targets = mesh->morph_target_count,
                                   .clips = clips,
                                   .clip_count = skin ? kiln_skin_clip_count(skin) : 0,
+                                  .open = opening.text,
+                                  .notes = mesh->notes,
                                   .thinnest = INFINITY};
     for (uint32_t i = 0; i < info.clip_count; i++)
         clips[i] = (struct kiln_mesh_clip){kiln_skin_clip_name(skin, i),
                                            (double)kiln_skin_clip_length(skin, i)};
     memcpy(info.min, mesh->min, sizeof info.min);
     memcpy(info.max, mesh->max, sizeof info.max);
-    if (!kiln_mesh_check_closed(mesh, "", &error)) {
-        if (error.code != KILN_INVALID_INPUT)
-            return false;
-        info.open = error.message + strspn(error.message, ": ");
-    } else if (!kiln_mesh_thinnest(mesh, &info.thinnest)) {
+    if (!kiln_mesh_find_opening(mesh, &opening) ||
+        (!*opening.text && !kiln_mesh_thinnest(mesh, &info.thinnest)))
         return false;
-    }
     telling->visit(telling->user, &info);
     return true;
 }

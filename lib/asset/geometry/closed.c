@@ -3,6 +3,7 @@
  * places are numbered first. */
 #include "asset/geometry/closed.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -58,23 +59,48 @@ static bool number_places(const struct kiln_mesh *mesh, uint32_t *place_of, uint
     return true;
 }
 
-static size_t list_edges(const struct kiln_mesh *mesh, const uint32_t *place_of, struct edge *edges)
+/* Visits the edges of a mesh whose ends are two places. With `edges`, stores each behind the last
+ * one of its lower place, whose end is ends[low]; else only counts them there. */
+static void visit_edges(const struct kiln_mesh *mesh, const uint32_t *place_of, uint32_t *ends,
+                        struct edge *edges)
 {
-    size_t count = 0;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         for (int c = 0; c < 3; c++) {
             const uint32_t a = place_of[mesh->triangles[i][c]];
             const uint32_t b = place_of[mesh->triangles[i][(c + 1) % 3]];
-            if (a != b)
-                edges[count++] = a < b ? (struct edge){a, b, 1} : (struct edge){b, a, -1};
+            if (a == b)
+                continue;
+            const struct edge edge = a < b ? (struct edge){a, b, 1} : (struct edge){b, a, -1};
+            const uint32_t at = ends[edge.low]++;
+            if (edges)
+                edges[at] = edge;
         }
     }
-    qsort(edges, count, sizeof *edges, by_ends);
+}
+
+/* Lists the edges in the order of their ends. ends: zeros, one for each place. Most places have few
+ * edges, so putting edges at their lower places leaves little to sort. */
+static size_t list_edges(const struct kiln_mesh *mesh, const uint32_t *place_of, uint32_t *ends,
+                         struct edge *edges)
+{
+    uint32_t count = 0;
+    visit_edges(mesh, place_of, ends, NULL);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const uint32_t own = ends[i];
+        ends[i] = count;
+        count += own;
+    }
+    visit_edges(mesh, place_of, ends, edges);
+    for (uint32_t i = 0, first = 0; i < mesh->vertex_count; i++) {
+        if (ends[i] - first > 1)
+            qsort(edges + first, ends[i] - first, sizeof *edges, by_ends);
+        first = ends[i];
+    }
     return count;
 }
 
-static bool check_edges(const struct kiln_mesh *mesh, const struct edge *edges, size_t count,
-                        const uint32_t *vertex_of, const char *name, struct kiln_error *error)
+static void find_opening(const struct kiln_mesh *mesh, const struct edge *edges, size_t count,
+                         const uint32_t *vertex_of, struct kiln_opening *opening)
 {
     for (size_t first = 0, next; first < count; first = next) {
         int32_t sum = 0;
@@ -84,30 +110,40 @@ static bool check_edges(const struct kiln_mesh *mesh, const struct edge *edges, 
             continue;
         const float *a = mesh->vertices[vertex_of[edges[first].low]];
         const float *b = mesh->vertices[vertex_of[edges[first].high]];
-        return kiln_error_set(
-            error, KILN_INVALID_INPUT,
-            "%s: the mesh is not closed, so it has no inside: %zu %s at the edge from %g %g %g to "
-            "%g %g %g%s",
-            name, next - first, next - first == 1 ? "triangle is" : "triangles are", (double)a[0],
+        snprintf(
+            opening->text, sizeof opening->text, "%zu %s at the edge from %g %g %g to %g %g %g%s",
+            next - first, next - first == 1 ? "triangle is" : "triangles are", (double)a[0],
             (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
             next - first == 1 ? ", where there must be two" : ", and do not face the same side");
+        return;
     }
-    return true;
+}
+
+bool kiln_mesh_find_opening(const struct kiln_mesh *mesh, struct kiln_opening *opening)
+{
+    uint32_t *place_of = malloc(mesh->vertex_count * sizeof *place_of);
+    uint32_t *vertex_of = malloc(mesh->vertex_count * sizeof *vertex_of);
+    uint32_t *ends = calloc(mesh->vertex_count, sizeof *ends);
+    struct edge *edges = malloc((size_t)mesh->triangle_count * 3 * sizeof *edges);
+    const bool ok =
+        place_of && vertex_of && ends && edges && number_places(mesh, place_of, vertex_of);
+    opening->text[0] = '\0';
+    if (ok)
+        find_opening(mesh, edges, list_edges(mesh, place_of, ends, edges), vertex_of, opening);
+    free(place_of);
+    free(vertex_of);
+    free(ends);
+    free(edges);
+    return ok;
 }
 
 bool kiln_mesh_check_closed(const struct kiln_mesh *mesh, const char *name,
                             struct kiln_error *error)
 {
-    uint32_t *place_of = malloc(mesh->vertex_count * sizeof *place_of);
-    uint32_t *vertex_of = malloc(mesh->vertex_count * sizeof *vertex_of);
-    struct edge *edges = malloc((size_t)mesh->triangle_count * 3 * sizeof *edges);
-    bool ok = place_of && vertex_of && edges && number_places(mesh, place_of, vertex_of);
-    if (ok)
-        ok = check_edges(mesh, edges, list_edges(mesh, place_of, edges), vertex_of, name, error);
-    else
-        kiln_error_no_memory(error, "%s", name);
-    free(place_of);
-    free(vertex_of);
-    free(edges);
-    return ok;
+    struct kiln_opening opening;
+    if (!kiln_mesh_find_opening(mesh, &opening))
+        return kiln_error_no_memory(error, "%s", name);
+    return !*opening.text || kiln_error_set(error, KILN_INVALID_INPUT,
+                                            "%s: the mesh is not closed, so it has no inside: %s",
+                                            name, opening.text);
 }

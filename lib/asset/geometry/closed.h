@@ -4,9 +4,17 @@
 
 #include "asset/geometry/mesh.h"
 
-/* Checks that every edge is passed as often in one direction as in the other by the triangles.
- * Vertices at the same place count as one. KILN_INVALID_INPUT with the edge and its fault, after
- * `name`; KILN_DEVICE_FAILED when memory is short. */
+/* Says where a mesh is open. */
+struct kiln_opening {
+    char text[256]; /* "1 triangle is at the edge from ..."; "": the mesh is closed */
+};
+
+/* Finds the first edge that the triangles do not pass as often in one direction as in the other.
+ * Vertices at the same place count as one. Returns false when memory is short. */
+bool kiln_mesh_find_opening(const struct kiln_mesh *mesh, struct kiln_opening *opening);
+
+/* Checks that a mesh is closed. KILN_INVALID_INPUT with where it is open, after `name`;
+ * KILN_DEVICE_FAILED when memory is short. */
 bool kiln_mesh_check_closed(const struct kiln_mesh *mesh, const char *name,
                             struct kiln_error *error);
 

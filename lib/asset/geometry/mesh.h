@@ -34,7 +34,8 @@ struct kiln_mesh {
     uint32_t (*triangles)[3];              /* indices below vertex_count */
     /* texture coordinates of the vertices of an unwrapped mesh, else NULL */
     float (*uvs)[2];
-    float min[3], max[3]; /* bounds of the positions */
+    float min[3], max[3];        /* bounds of the positions */
+    uint32_t morph_target_count; /* of the meshes that a glTF file shows, together */
     /* SHA-256, in hex, of the hashes of the files that were read. Hashes of scenes and of their
      * motion contain it, so it may depend on nothing but the content of the files. */
     char hash[65];

@@ -154,6 +154,7 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
         return NULL;
     mesh->vertex_count = result->vertex_count;
     mesh->triangle_count = result->triangle_count;
+    mesh->morph_target_count = result->morph_target_count;
     mesh->vertices = malloc(mesh->vertex_count * sizeof *mesh->vertices);
     mesh->triangles = malloc(mesh->triangle_count * sizeof *mesh->triangles);
     if (uvs)
@@ -204,6 +205,7 @@ static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mes
 {
     result->vertex_count = answer->vertices;
     result->triangle_count = answer->triangles;
+    result->morph_target_count = answer->morph_targets;
     result->skin.node_count = answer->nodes;
     result->skin.bone_count = answer->bones;
     result->skin.clip_count = answer->clips;

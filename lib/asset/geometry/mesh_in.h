@@ -13,7 +13,7 @@
 /* Holds the arrays in their largest sizes. It comes from calloc: pages that are never touched take
  * no memory. */
 struct kiln_mesh_result {
-    uint32_t vertex_count, triangle_count;
+    uint32_t vertex_count, triangle_count, morph_target_count;
     float vertices[KILN_MAX_MESH_VERTICES][6]; /* position and normal */
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
     struct kiln_skin_result skin;         /* filled for a mesh that moves */

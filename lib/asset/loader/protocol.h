@@ -111,7 +111,7 @@ struct kiln_decode_answer {
     /* of a picture: the members of struct kiln_asset_image with these names */
     uint32_t width, height, channels, type, srgb, premultiplied, pages;
     uint32_t data;                                         /* of a layer: it holds no light */
-    uint32_t vertices, triangles;                          /* of a mesh: counts */
+    uint32_t vertices, triangles, morph_targets;           /* of a mesh: counts */
     uint32_t nodes, bones, clips, channels_of_clips, keys; /* of a mesh that moves: counts */
     uint32_t morphs, morph_channels, deltas;               /* of the same */
 };
