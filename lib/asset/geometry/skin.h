@@ -40,20 +40,14 @@ bool kiln_skin_find_clip(const struct kiln_skin *skin, const char *clip, const c
 /* Returns the length of a clip, from 0 to its last key, s. */
 float kiln_skin_clip_length(const struct kiln_skin *skin, uint32_t clip);
 
-/* Memory in which poses of a skin are computed, by one thread at a time. NULL when memory is short.
- * The caller destroys it. */
-struct kiln_skin_scratch;
-struct kiln_skin_scratch *kiln_skin_scratch_create(const struct kiln_skin *skin);
-void kiln_skin_scratch_destroy(struct kiln_skin_scratch **scratch);
-
 /* Computes position and unit normal of every vertex of kiln_skin_mesh, in units of the file, at a
  * moment of a clip. Before 0 and after the length, the pose stays that of the first and the last
- * moment. */
-void kiln_skin_pose(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch, uint32_t clip,
-                    float seconds, float (*vertices)[6]);
+ * moment. Any threads may call it at once; those that pose the same skin wait for each other. */
+void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
+                    float (*vertices)[6]);
 
 /* Writes a pose into the vertices of a mesh with as many vertices, and updates its bounds. */
-void kiln_skin_pose_mesh(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch,
-                         uint32_t clip, float seconds, struct kiln_mesh *mesh);
+void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seconds,
+                         struct kiln_mesh *mesh);
 
 #endif
