@@ -203,7 +203,7 @@ void gltf_blend(const struct kiln_skin_weights *weights, const double (*bones)[3
                 double rows[3][4]);
 
 /* Returns the determinant of a matrix. */
-double gltf_determinant(const double rows[3][4]);
+double gltf_determinant(const double m[3][4]);
 
 /* ---- gltf_still.c, gltf_moving.c, gltf_clip.c ------------------------------------------------ */
 

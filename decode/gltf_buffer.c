@@ -25,7 +25,7 @@ static size_t decode_percents(char *text, size_t length)
     for (size_t from = 0; from < length; from++) {
         const int high = text[from] == '%' && length - from > 2 ? hex_of(text[from + 1]) : -1;
         const int low = high >= 0 ? hex_of(text[from + 2]) : -1;
-        text[to++] = low >= 0 ? (char)(high * 16 + low) : text[from];
+        text[to++] = (char)(unsigned char)(low >= 0 ? high * 16 + low : text[from]);
         from += low >= 0 ? 2 : 0;
     }
     return to;
@@ -231,7 +231,7 @@ static bool decompress(struct gltf *g, uint32_t number, uint32_t json, struct gl
 {
     struct gltf_bytes *kept = &g->views[number];
     struct meshopt_stream stream;
-    struct gltf_view packed;
+    struct gltf_view packed = {.size = 0};
     if (!get_meshopt(g, json, &stream))
         return false;
     if (!kept->bytes) {

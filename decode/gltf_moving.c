@@ -406,9 +406,11 @@ static void finish(struct moving *m)
 /* Finds normals where the file has none, and then stores the morph targets. */
 static bool put_normals_and_morphs(struct moving *m)
 {
-    uint32_t *firsts = malloc(((size_t)m->part_count + 1) * sizeof *firsts);
+    uint32_t *firsts = calloc((size_t)m->part_count + 1, sizeof *firsts);
     struct gltf_piece *pieces = calloc((size_t)m->part_count + 1, sizeof *pieces);
-    bool ok = (firsts && pieces) || decode_out_of_memory(m->g->error);
+    bool ok = firsts && pieces;
+    if (!ok)
+        decode_out_of_memory(m->g->error);
     for (uint32_t i = 0; ok && i < m->part_count; i++) {
         const struct part *part = &m->parts[i];
         firsts[i] = part->first;

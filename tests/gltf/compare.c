@@ -203,8 +203,10 @@ static void compare_file(const char *file, const char *path, const char *folder,
     char of[KILN_PATH_SIZE];
     const size_t start = (size_t)snprintf(of, sizeof of, "%s/", folder);
     snprintf(of + start, sizeof of - start, "%s.expect", file);
-    for (char *c = of + start; *c; c++)
-        *c = *c == '/' ? '_' : *c;
+    for (char *c = of + start; *c; c++) {
+        if (*c == '/')
+            *c = '_';
+    }
     if (!read_expected(of, &expected) || take_word(&expected) != MARK) {
         complain(file, "there is no expectation");
         free(expected.bytes);
