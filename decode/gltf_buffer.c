@@ -51,6 +51,8 @@ static bool decode_base64(char *text, size_t *length)
         end--;
     for (size_t i = 0; i < end; i++) {
         const int digit = base64_of((unsigned char)text[i]);
+        if (text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t')
+            continue;
         if (digit < 0)
             return false;
         bits = bits << 6 | (uint32_t)digit;

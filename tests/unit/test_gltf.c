@@ -86,6 +86,26 @@ static struct kiln_skin *parse(struct text *text, struct kiln_error *error)
     return skin;
 }
 
+/* Each node of a file may move a mesh of its own. */
+static void all_nodes_may_have_meshes(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    struct text text = begin();
+    add(&text, ", \"nodes\": [{\"children\": [1");
+    for (int i = 2; i < 4096; i++)
+        add(&text, ", %d", i);
+    add(&text, "]}");
+    for (int i = 1; i < 4096; i++)
+        add(&text, ", {\"mesh\": 0}");
+    add(&text, "]" MOVES("7"));
+    struct kiln_skin *skin = parse(&text, &error);
+    if (!skin)
+        fail_msg("%s", error.message);
+    assert_int_equal(kiln_skin_mesh(skin)->triangle_count, 4095 * 4);
+    kiln_skin_destroy(&skin);
+}
+
 /* A chain of nodes is as long as the limit says: the mesh lies at its end. */
 static void nodes_have_a_limit(void **state)
 {
@@ -203,6 +223,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_have_a_limit),
+        cmocka_unit_test(all_nodes_may_have_meshes),
         cmocka_unit_test(bones_have_a_limit),
         cmocka_unit_test(instances_have_a_limit),
         cmocka_unit_test(creases_are_those_of_a_still_mesh),

@@ -8,12 +8,13 @@
 
 enum {
     KILN_MAX_SKIN_NODES = 4096 + 1, /* those of a file, and a root of them */
-    KILN_MAX_SKIN_BONES = 1024,
-    KILN_SKIN_INFLUENCES = 4, /* the most bones that move one vertex */
-    KILN_MAX_CLIPS = 64,
+    KILN_MAX_SKIN_JOINTS = 1024,    /* of one skin of a file */
+    KILN_MAX_SKIN_BONES = 8192, /* joints of all skins, and nodes or instances that move parts */
+    KILN_SKIN_INFLUENCES = 4,   /* the most bones that move one vertex */
+    KILN_MAX_CLIPS = 256,
     KILN_MAX_CLIP_NAME = 64, /* bytes of a name, including the zero at its end */
-    KILN_MAX_CLIP_CHANNELS = 1 << 14,
-    KILN_MAX_CLIP_KEYS = 1 << 19,   /* keys of all clips of a file */
+    KILN_MAX_CLIP_CHANNELS = 1 << 15,
+    KILN_MAX_CLIP_KEYS = 1 << 20,   /* keys of all clips of a file */
     KILN_MAX_SKIN_MORPHS = 4096,    /* morph targets whose weights clips move */
     KILN_MAX_CLIP_MORPHS = 1 << 14, /* such targets of all clips together */
     KILN_MAX_SKIN_DELTAS = 1 << 22, /* vertices of all such targets */
