@@ -203,7 +203,7 @@ void gltf_blend(const struct kiln_skin_weights *weights, const double (*bones)[3
                 double rows[3][4]);
 
 /* Returns the determinant of a matrix. */
-double gltf_determinant(const double rows[3][4]);
+double gltf_determinant(const double m[3][4]);
 
 /* ---- gltf_still.c, gltf_moving.c, gltf_clip.c ------------------------------------------------ */
 
@@ -227,7 +227,8 @@ bool gltf_put_creases(struct gltf *g, struct gltf_piece *pieces, uint32_t count,
 
 /* Which numbers the nodes of the file have in the result, and which morph targets each has. */
 struct gltf_moved {
-    uint32_t node;                      /* JSON_NONE: it is not in the result */
+    uint32_t node;       /* JSON_NONE: it is not in the result */
+    uint32_t first_bone; /* from 1; of its first instance; 0: it moves no part by itself */
     uint32_t first_morph, target_count; /* of its first part; the others' follow */
     uint32_t part_count;
 };

@@ -25,7 +25,7 @@ static size_t decode_percents(char *text, size_t length)
     for (size_t from = 0; from < length; from++) {
         const int high = text[from] == '%' && length - from > 2 ? hex_of(text[from + 1]) : -1;
         const int low = high >= 0 ? hex_of(text[from + 2]) : -1;
-        text[to++] = low >= 0 ? (char)(high * 16 + low) : text[from];
+        text[to++] = (char)(unsigned char)(low >= 0 ? high * 16 + low : text[from]);
         from += low >= 0 ? 2 : 0;
     }
     return to;
@@ -51,6 +51,8 @@ static bool decode_base64(char *text, size_t *length)
         end--;
     for (size_t i = 0; i < end; i++) {
         const int digit = base64_of((unsigned char)text[i]);
+        if (text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t')
+            continue;
         if (digit < 0)
             return false;
         bits = bits << 6 | (uint32_t)digit;
@@ -231,7 +233,7 @@ static bool decompress(struct gltf *g, uint32_t number, uint32_t json, struct gl
 {
     struct gltf_bytes *kept = &g->views[number];
     struct meshopt_stream stream;
-    struct gltf_view packed;
+    struct gltf_view packed = {.size = 0};
     if (!get_meshopt(g, json, &stream))
         return false;
     if (!kept->bytes) {

@@ -330,7 +330,9 @@ bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved, struct kiln_
     uint32_t *numbers = calloc(KILN_MAX_SKIN_NODES, sizeof *numbers);
     c.channels = malloc(KILN_MAX_SKIN_NODES * sizeof *c.channels);
     c.morph_channels = malloc(KILN_MAX_SKIN_MORPHS * sizeof *c.morph_channels);
-    bool ok = (numbers && c.channels && c.morph_channels) || decode_out_of_memory(g->error);
+    bool ok = numbers && c.channels && c.morph_channels;
+    if (!ok)
+        decode_out_of_memory(g->error);
     for (uint32_t i = 0; ok && i < g->lists[GLTF_NODES].count; i++) {
         if (moved[i].node != JSON_NONE)
             numbers[moved[i].node] = i;

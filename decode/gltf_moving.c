@@ -185,16 +185,30 @@ static bool put_part(struct moving *m, const struct gltf_primitive *from, struct
     return true;
 }
 
-/* Adds an instance of a node's primitive, which the node moves. */
-static bool put_rigid(struct moving *m, uint32_t node, const double offset[3][4],
-                      const struct gltf_primitive *from, struct part *part)
+/* Stores a bone for each instance of a node, once. All primitives of the node follow them. */
+static bool put_instance_bones(struct moving *m, uint32_t node,
+                               const struct gltf_instances *instances)
 {
-    if (!put_bone(m, node, offset) || !put_part(m, from, part))
+    struct gltf_moved *moved = &m->moved[node];
+    if (moved->first_bone > 0)
+        return true;
+    moved->first_bone = m->result->skin.bone_count + 1;
+    for (uint32_t i = 0; i < instances->count; i++) {
+        if (!put_bone(m, node, instances->rows[i]))
+            return false;
+    }
+    return true;
+}
+
+/* Adds a primitive that follows one bone. */
+static bool put_rigid(struct moving *m, uint32_t bone, const struct gltf_primitive *from,
+                      struct part *part)
+{
+    if (!put_part(m, from, part))
         return false;
-    const uint16_t bone = (uint16_t)(m->result->skin.bone_count - 1);
     for (uint32_t i = 0; i < from->vertex_count; i++)
         m->result->skin.weights[part->first + i] =
-            (struct kiln_skin_weights){.bones = {bone}, .weights = {1.0f}};
+            (struct kiln_skin_weights){.bones = {(uint16_t)bone}, .weights = {1.0f}};
     return true;
 }
 
@@ -230,11 +244,13 @@ static bool put_instances(struct moving *m, uint32_t node, const struct gltf_ins
     struct gltf_moved *moved = &m->moved[node];
     const uint32_t skin = m->g->nodes[node].skin;
     const bool skinned = from->weights != NULL;
+    if (!skinned && !put_instance_bones(m, node, instances))
+        return false;
     for (uint32_t i = 0; i < (skinned ? 1 : instances->count); i++) {
         struct part *part = add_part(m);
         if (!part ||
             !(skinned ? put_part(m, from, part) && put_weights(m, from, skin, part->first)
-                      : put_rigid(m, node, instances->rows[i], from, part)) ||
+                      : put_rigid(m, moved->first_bone - 1 + i, from, part)) ||
             (morphs && !copy_targets(m, from, weights, part)))
             return false;
         moved->target_count = morphs ? from->target_count : 0;
@@ -406,9 +422,11 @@ static void finish(struct moving *m)
 /* Finds normals where the file has none, and then stores the morph targets. */
 static bool put_normals_and_morphs(struct moving *m)
 {
-    uint32_t *firsts = malloc(((size_t)m->part_count + 1) * sizeof *firsts);
+    uint32_t *firsts = calloc((size_t)m->part_count + 1, sizeof *firsts);
     struct gltf_piece *pieces = calloc((size_t)m->part_count + 1, sizeof *pieces);
-    bool ok = (firsts && pieces) || decode_out_of_memory(m->g->error);
+    bool ok = firsts && pieces;
+    if (!ok)
+        decode_out_of_memory(m->g->error);
     for (uint32_t i = 0; ok && i < m->part_count; i++) {
         const struct part *part = &m->parts[i];
         firsts[i] = part->first;

@@ -110,7 +110,7 @@ static bool get_numbers(struct gltf *g, uint32_t object, const char *key, uint32
 
 static bool read_transform(struct gltf *g, uint32_t json, struct gltf_node *node)
 {
-    double m[16];
+    double m[16] = {0};
     bool is_there = false;
     node->pose = (struct gltf_pose){{0, 0, 0}, {0, 0, 0, 1}, {1, 1, 1}};
     if (!get_numbers(g, json, "matrix", 16, m, &is_there))
@@ -287,7 +287,9 @@ bool gltf_find_nodes(struct gltf *g)
     g->nodes = calloc((size_t)count + 1, sizeof *g->nodes);
     g->order = malloc(((size_t)count + 1) * sizeof *g->order);
     uint32_t *stack = malloc(((size_t)count + 1) * sizeof *stack);
-    bool ok = (g->nodes && g->order && stack) || decode_out_of_memory(g->error);
+    bool ok = g->nodes && g->order && stack;
+    if (!ok)
+        decode_out_of_memory(g->error);
     for (uint32_t i = 0; ok && i < count; i++)
         g->nodes[i].parent = JSON_NONE;
     for (uint32_t i = 0; ok && i < count; i++)

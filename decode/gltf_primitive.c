@@ -159,7 +159,7 @@ static void normalize(struct kiln_skin_weights *of)
         sum += (double)of->weights[i];
     const bool is_usable = sum > 1e-12 && sum < 1e12;
     for (int i = 0; i < KILN_SKIN_INFLUENCES && !(sum > 0.995 && sum < 1.005); i++)
-        of->weights[i] = is_usable ? (float)((double)of->weights[i] / sum) : i == 0;
+        of->weights[i] = is_usable ? (float)((double)of->weights[i] / sum) : i == 0 ? 1.0f : 0.0f;
 }
 
 struct weighting {
@@ -356,7 +356,9 @@ float *gltf_default_weights(struct gltf *g, uint32_t node, uint32_t count, bool 
     if (count == 0 || json_count(&g->json, list) == 0)
         return NULL;
     float *weights = calloc(count, sizeof *weights);
-    *ok = weights || decode_out_of_memory(g->error);
+    *ok = weights != NULL;
+    if (!weights)
+        decode_out_of_memory(g->error);
     uint32_t number = 0;
     for (uint32_t i = json_first(&g->json, list); weights && i != JSON_NONE && number < count;
          i = json_after(&g->json, list, i)) {

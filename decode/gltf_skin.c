@@ -29,9 +29,9 @@ bool gltf_read_skin(struct gltf *g, uint32_t skin, struct gltf_skin *out)
     const uint32_t joints = json_member(&g->json, json, "joints");
     uint32_t accessor = 0;
     *out = (struct gltf_skin){.count = json_count(&g->json, joints)};
-    if (out->count == 0 || out->count > KILN_MAX_SKIN_BONES)
+    if (out->count == 0 || out->count > KILN_MAX_SKIN_JOINTS)
         return GLTF_SET(g, "skin %u has %u joints; allowed are 1 to %d", skin, out->count,
-                        KILN_MAX_SKIN_BONES);
+                        KILN_MAX_SKIN_JOINTS);
     out->bones = calloc(out->count, sizeof *out->bones);
     if (!out->bones)
         return decode_out_of_memory(g->error);

@@ -220,7 +220,9 @@ bool gltf_still(struct gltf *g, struct decode_model *model)
 {
     struct still s = {.g = g, .model = model};
     s.made = calloc((size_t)g->lists[GLTF_MESHES].count + 1, sizeof *s.made);
-    bool ok = s.made || decode_out_of_memory(g->error);
+    bool ok = s.made != NULL;
+    if (!ok)
+        decode_out_of_memory(g->error);
     for (uint32_t i = 0; ok && i < g->order_count; i++) {
         const struct gltf_node *node = &g->nodes[g->order[i]];
         if (node->shown && node->mesh != JSON_NONE)

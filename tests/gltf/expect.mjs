@@ -101,10 +101,13 @@ function meshesOf(gltf, nearFirst) {
 }
 
 function materialOf(gltf, mesh) {
-    const json = gltf.parser.json, of = gltf.parser.associations.get(mesh);
-    // An instanced mesh is only known by its node; those of the tests have one primitive.
-    const { meshes, primitives } = of.meshes === undefined ? { meshes: json.nodes[of.nodes].mesh, primitives: 0 } : of;
-    return json.meshes[meshes].primitives[primitives].material ?? (json.materials ?? []).length;
+    const json = gltf.parser.json, known = gltf.parser.associations.get(mesh);
+    if (known?.meshes !== undefined)
+        return json.meshes[known.meshes].primitives[known.primitives].material ?? (json.materials ?? []).length;
+    // An instanced mesh is only known by its node, of which it is a child if there are several.
+    const node = known ? mesh : mesh.parent, of = json.nodes[gltf.parser.associations.get(node).nodes].mesh;
+    const number = known ? 0 : primitivesOf(gltf, node).indexOf(mesh);
+    return json.meshes[of].primitives[number].material ?? (json.materials ?? []).length;
 }
 
 // The matrix that places a vertex of a mesh.
