@@ -39,20 +39,21 @@ static bool print_work(const struct kiln_scene_info *info)
                   info->steps, info->particle_capacity, info->memory_bytes >> 20) >= 0;
 }
 
-/* Prints notes of the reader of a mesh, which are lines. */
-static void print_notes(const char *notes)
+/* Prints lines as YAML comments, each behind `before`. */
+static void print_lines(const char *lines, const char *before)
 {
-    char text[KILN_MESSAGE_SIZE], shown[KILN_MESSAGE_SIZE];
-    for (const char *at = notes; *at;) {
+    char text[2 * KILN_MESSAGE_SIZE], shown[2 * KILN_MESSAGE_SIZE];
+    for (const char *at = lines; *at;) {
         const size_t length = strcspn(at, "\n");
         snprintf(text, sizeof text, "%.*s", (int)length, at);
         kiln_shown(shown, sizeof shown, text);
-        printf("#   note: %s\n", shown);
+        printf("#   %s%s\n", before, shown);
         at += length + (at[length] == '\n');
     }
 }
 
-/* Prints what a mesh is, as YAML comments: its size, and whether it has an inside. */
+/* Prints what a mesh is, as YAML comments: its size, whether it has an inside, how it
+ * moves and looks, and what was left out of it. */
 static void print_mesh(void *user, const struct kiln_mesh_info *info)
 {
     (void)user;
@@ -78,7 +79,8 @@ static void print_mesh(void *user, const struct kiln_mesh_info *info)
         kiln_shown(text, sizeof text, info->clips[i].name);
         printf("#   clip %" PRIu32 " '%s' of %.4g s\n", i, text, info->clips[i].seconds);
     }
-    print_notes(info->notes);
+    print_lines(info->looks, "");
+    print_lines(info->notes, "note: ");
 }
 
 /* Prints the hash of a scene, or the scene and its work. With `several` scenes, the path is

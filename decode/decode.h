@@ -149,19 +149,22 @@ bool decode_video_read(struct decode_video *video, struct kiln_asset_image **ima
 
 struct decode_mesh {
     enum kiln_mesh_format format;
-    bool uvs;    /* texture coordinates are wanted */
+    bool uvs; /* texture coordinates are wanted */
+    /* materials are wanted, and with them colours and texture coordinates of vertices that have
+     * some; only of a mesh that does not move */
+    bool materials;
     bool moving; /* nodes, bones and clips are wanted, and vertices that these have not moved */
     const void *bytes;
     size_t size;
     /* Returns the bytes of another file that this one names, which the importer frees, or NULL if
      * it may not be read. */
-    unsigned char *(*open)(void *user, const char *name, size_t *size);
+    unsigned char *(*open)(void *user, enum kiln_companion kind, const char *name, size_t *size);
     void *user;
 };
 
 /* Imports a mesh in this process; kiln limits its time (lib/asset/loader/helper.c). *needs_other is
  * set, and false returned, if only a process of kind KILN_DECODE_DRACO can. The caller frees
- * result->skin.deltas, also after a failure. */
+ * result->skin.deltas and result->looks.bytes, also after a failure. */
 bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result, bool *needs_other,
                  struct kiln_error *error);
 
@@ -186,8 +189,9 @@ bool decode_ply(const struct decode_mesh *wanted, struct decode_model *model,
 bool decode_stl(const struct decode_mesh *wanted, struct decode_model *model,
                 struct kiln_error *error);
 
-/* Makes one surface of all parts of a model. */
-bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
+/* Makes one surface of all parts of a model, and finishes the model as soon as it has its corners,
+ * since both are large. */
+bool decode_surface(const struct decode_mesh *wanted, struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "looks.h"
 
 /* ---- parts of the document ------------------------------------------------------------------- */
 
@@ -17,6 +18,7 @@ uint32_t gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t n
 
 static const char *const list_keys[GLTF_LISTS] = {
     [GLTF_ACCESSORS] = "accessors", [GLTF_ANIMATIONS] = "animations", [GLTF_BUFFERS] = "buffers",
+    [GLTF_IMAGES] = "images",       [GLTF_SAMPLERS] = "samplers",     [GLTF_TEXTURES] = "textures",
     [GLTF_MATERIALS] = "materials", [GLTF_MESHES] = "meshes",         [GLTF_NODES] = "nodes",
     [GLTF_SCENES] = "scenes",       [GLTF_SKINS] = "skins",           [GLTF_VIEWS] = "bufferViews"};
 
@@ -51,10 +53,7 @@ bool gltf_requires(const struct gltf *g, const char *extension)
 
 void gltf_note(struct gltf *g, const char *text)
 {
-    const size_t length = strlen(g->notes), more = strlen(text);
-    if (strstr(g->notes, text) || length + more + 2 > KILN_MESSAGE_SIZE)
-        return;
-    snprintf(g->notes + length, KILN_MESSAGE_SIZE - length, "%s%s", length ? "\n" : "", text);
+    decode_note(g->notes, "%s", text);
 }
 
 static bool find_list(struct gltf *g, enum gltf_list_name name)
@@ -280,8 +279,10 @@ static void finish(struct gltf *g)
 
 static bool make_surface(struct gltf *g, struct kiln_mesh_result *result)
 {
-    struct decode_model model = {0};
-    const bool ok = gltf_still(g, &model) && decode_surface(g->wanted, &model, result, g->error);
+    struct decode_model model = {.looks = g->wanted->materials ? &result->looks : NULL,
+                                 .notes = result->notes};
+    const bool ok = gltf_still(g, &model) && gltf_put_materials(g, &model) &&
+                    decode_surface(g->wanted, &model, result, g->error);
     decode_model_finish(&model);
     return ok;
 }

@@ -17,11 +17,14 @@ enum gltf_list_name {
     GLTF_ACCESSORS,
     GLTF_ANIMATIONS,
     GLTF_BUFFERS,
+    GLTF_IMAGES,
     GLTF_MATERIALS,
     GLTF_MESHES,
     GLTF_NODES,
+    GLTF_SAMPLERS,
     GLTF_SCENES,
     GLTF_SKINS,
+    GLTF_TEXTURES,
     GLTF_VIEWS,
     GLTF_LISTS
 };
@@ -96,6 +99,15 @@ void gltf_note(struct gltf *g, const char *text);
 /* Gets the bytes of all buffers, in their order, which is that of the mesh's hash. */
 bool gltf_open_buffers(struct gltf *g);
 
+/* Gets the text of a URI in memory that the caller frees; NULL: memory is short. */
+char *gltf_copy_uri(struct gltf *g, uint32_t value, size_t *length);
+
+/* Replaces each %20 and its like by the byte that it stands for. Returns the length. */
+size_t gltf_decode_percents(char *text, size_t length);
+
+/* Decodes the data of a URI that begins with "data:" in its place. */
+bool gltf_decode_data(struct gltf *g, char *uri, size_t length, struct gltf_bytes *out);
+
 /* A view of a buffer. */
 struct gltf_view {
     const unsigned char *bytes;
@@ -160,6 +172,7 @@ struct gltf_target {
 struct gltf_primitive {
     uint32_t vertex_count, triangle_count, target_count;
     float (*positions)[3], (*normals)[3], (*uvs)[2];
+    float (*colors)[4], (*second_uvs)[2]; /* of a mesh that is read with its materials */
     uint32_t (*triangles)[3];
     struct gltf_target *targets;
     struct kiln_skin_weights *weights; /* of joints of the skin; NULL: none */
@@ -175,12 +188,25 @@ void gltf_finish_primitive(struct gltf_primitive *primitive);
 /* Moves texture coordinates as the base colour texture of the material says (gltf_texture.c). */
 bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive);
 
+/* Gets the transform of texture coordinates of a texture that a material names (KHR_texture_
+ * transform, gltf_texture.c). False: it has none, and rows are not changed. */
+bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3]);
+
 /* Gets the weights of morph targets by default of a node's mesh; NULL: all are 0, or failure, which
  * *ok tells. The caller frees them. count: number of targets. */
 float *gltf_default_weights(struct gltf *g, uint32_t node, uint32_t count, bool *ok);
 
 /* Adds targets to positions and normals. */
 void gltf_morph(struct gltf_primitive *primitive, const float *weights);
+
+/* ---- gltf_material.c ------------------------------------------------------------------------- */
+
+/* Gives the model's looks the materials that its meshes have, unless they are not wanted. */
+bool gltf_put_materials(struct gltf *g, struct decode_model *model);
+
+/* Reads colours and second texture coordinates of vertices, if materials are wanted. */
+bool gltf_read_colors(struct gltf *g, uint32_t attributes, struct gltf_range range,
+                      struct gltf_primitive *primitive);
 
 /* ---- gltf_skin.c ----------------------------------------------------------------------------- */
 

@@ -18,8 +18,7 @@ static int hex_of(char c)
                                   : -1;
 }
 
-/* Replaces each %20 and its like by the byte that it stands for. Returns the length. */
-static size_t decode_percents(char *text, size_t length)
+size_t gltf_decode_percents(char *text, size_t length)
 {
     size_t to = 0;
     for (size_t from = 0; from < length; from++) {
@@ -66,8 +65,7 @@ static bool decode_base64(char *text, size_t *length)
     return true;
 }
 
-/* Decodes the data of a URI that begins with "data:". */
-static bool decode_data(struct gltf *g, char *uri, size_t length, struct gltf_bytes *out)
+bool gltf_decode_data(struct gltf *g, char *uri, size_t length, struct gltf_bytes *out)
 {
     static const char base64[] = ";base64";
     const size_t mark = sizeof base64 - 1;
@@ -77,7 +75,7 @@ static bool decode_data(struct gltf *g, char *uri, size_t length, struct gltf_by
     const bool encoded = (size_t)(comma - uri) >= mark && memcmp(comma - mark, base64, mark) == 0;
     size_t size = length - (size_t)(comma + 1 - uri);
     memmove(uri, comma + 1, size);
-    size = decode_percents(uri, size);
+    size = gltf_decode_percents(uri, size);
     if (encoded && !decode_base64(uri, &size))
         return GLTF_SET(g, "a buffer's data URI is not base64");
     out->bytes = (const unsigned char *)uri;
@@ -88,13 +86,15 @@ static bool decode_data(struct gltf *g, char *uri, size_t length, struct gltf_by
 /* Gets the file of a relative URI from kiln. */
 static bool open_file(struct gltf *g, char *uri, size_t length, struct gltf_bytes *out)
 {
-    length = decode_percents(uri, length);
+    length = gltf_decode_percents(uri, length);
     uri[length] = '\0';
     if (strlen(uri) != length || length >= KILN_MESSAGE_SIZE)
         return GLTF_SET(g, "the name of a buffer's file has a zero, or is longer than %d bytes",
                         KILN_MESSAGE_SIZE - 1);
     size_t size = 0;
-    unsigned char *bytes = g->wanted->open ? g->wanted->open(g->wanted->user, uri, &size) : NULL;
+    unsigned char *bytes = g->wanted->open
+                               ? g->wanted->open(g->wanted->user, KILN_COMPANION_BUFFER, uri, &size)
+                               : NULL;
     if (!bytes)
         return GLTF_SET(g, "the mesh file names the file '%.200s', which cannot be read", uri);
     free(out->owned);
@@ -104,16 +104,26 @@ static bool open_file(struct gltf *g, char *uri, size_t length, struct gltf_byte
 
 /* ---- buffers --------------------------------------------------------------------------------- */
 
-static bool open_uri(struct gltf *g, uint32_t value, struct gltf_bytes *out)
+char *gltf_copy_uri(struct gltf *g, uint32_t value, size_t *length)
 {
     char none[1];
-    const size_t length = json_text(&g->json, value, none, sizeof none);
-    char *uri = malloc(length + 1);
+    *length = json_text(&g->json, value, none, sizeof none);
+    char *uri = malloc(*length + 1);
+    if (uri)
+        json_text(&g->json, value, uri, *length + 1);
+    else
+        decode_out_of_memory(g->error);
+    return uri;
+}
+
+static bool open_uri(struct gltf *g, uint32_t value, struct gltf_bytes *out)
+{
+    size_t length = 0;
+    char *uri = gltf_copy_uri(g, value, &length);
     if (!uri)
-        return decode_out_of_memory(g->error);
-    json_text(&g->json, value, uri, length + 1);
+        return false;
     *out = (struct gltf_bytes){.owned = (unsigned char *)uri};
-    return length >= 5 && strncasecmp(uri, "data:", 5) == 0 ? decode_data(g, uri, length, out)
+    return length >= 5 && strncasecmp(uri, "data:", 5) == 0 ? gltf_decode_data(g, uri, length, out)
                                                             : open_file(g, uri, length, out);
 }
 

@@ -18,6 +18,8 @@ void gltf_finish_primitive(struct gltf_primitive *primitive)
     free(primitive->positions);
     free(primitive->normals);
     free(primitive->uvs);
+    free(primitive->colors);
+    free(primitive->second_uvs);
     free(primitive->triangles);
     free(primitive->weights);
     for (uint32_t i = 0; primitive->targets && i < primitive->target_count; i++) {
@@ -317,7 +319,8 @@ static bool read_plain(struct gltf *g, uint32_t json, uint32_t mode, bool uvs, b
     out->normals = (float(*)[3])normals;
     out->uvs = (float(*)[2])coordinates;
     out->vertex_count = range.count;
-    return ok && (!weights || read_weights(g, attributes, range, out)) &&
+    return ok && gltf_read_colors(g, attributes, range, out) &&
+           (!weights || read_weights(g, attributes, range, out)) &&
            read_targets(g, json, range, out);
 }
 

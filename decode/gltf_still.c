@@ -38,10 +38,13 @@ static bool add_mesh(struct still *s, struct gltf_primitive *from, size_t *numbe
                                                         .positions = from->positions,
                                                         .normals = from->normals,
                                                         .uvs = from->uvs,
+                                                        .colors = from->colors,
+                                                        .second_uvs = from->second_uvs,
                                                         .triangles = from->triangles,
                                                         .material = from->material};
     from->positions = from->normals = NULL;
-    from->uvs = NULL;
+    from->uvs = from->second_uvs = NULL;
+    from->colors = NULL;
     from->triangles = NULL;
     return true;
 }
@@ -141,7 +144,8 @@ static bool make_mesh(struct still *s, uint32_t node, uint32_t json, size_t *num
 {
     struct gltf *g = s->g;
     struct gltf_primitive primitive;
-    bool ok = gltf_read_primitive(g, json, g->wanted->uvs, s->bones != NULL, &primitive);
+    bool ok = gltf_read_primitive(g, json, g->wanted->uvs || g->wanted->materials, s->bones != NULL,
+                                  &primitive);
     float *weights = NULL;
     if (ok)
         weights = gltf_default_weights(g, node, primitive.target_count, &ok);

@@ -2,6 +2,7 @@
  * up (KHR_texture_transform). Files with integers as coordinates depend on it: the transform gives
  * them their scale. */
 #include <stddef.h>
+#include <string.h>
 
 #include "gltf.h"
 
@@ -39,8 +40,25 @@ static void get_pair(const struct gltf *g, uint32_t array, double otherwise, dou
     pair[1] = number_of(g, second, otherwise);
 }
 
+bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3])
+{
+    const uint32_t transform = gltf_extension(g, texture, "KHR_texture_transform");
+    double offset[2], scale[2], sine, cosine;
+    if (transform == JSON_NONE)
+        return false;
+    get_pair(g, json_member(&g->json, transform, "offset"), 0.0, offset);
+    get_pair(g, json_member(&g->json, transform, "scale"), 1.0, scale);
+    find_sine(number_of(g, json_member(&g->json, transform, "rotation"), 0.0), &sine, &cosine);
+    const double found[2][3] = {{cosine * scale[0], sine * scale[1], offset[0]},
+                                {-sine * scale[0], cosine * scale[1], offset[1]}};
+    memcpy(rows, found, sizeof found);
+    return true;
+}
+
 bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive)
 {
+    if (g->wanted->materials) /* then the material has the transform */
+        return true;
     const uint32_t material = gltf_element(g, GLTF_MATERIALS, primitive->material);
     const uint32_t looks = json_member(&g->json, material, "pbrMetallicRoughness");
     const uint32_t texture = json_member(&g->json, looks, "baseColorTexture");

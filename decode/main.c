@@ -261,12 +261,15 @@ static void serve_video(int file)
 }
 
 /* Asks kiln for a file that a mesh names. */
-static unsigned char *ask_for_file(void *user, const char *name, size_t *size)
+static unsigned char *ask_for_file(void *user, enum kiln_companion kind, const char *name,
+                                   size_t *size)
 {
     (void)user;
     struct kiln_decode_file answer;
     struct kiln_error error = {0};
-    send_text(KILN_DECODE_NEEDS_FILE, name);
+    struct kiln_decode_answer wish = {.what = KILN_DECODE_NEEDS_FILE, .companion = kind};
+    snprintf(wish.text, sizeof wish.text, "%s", name);
+    send_answer(&wish);
     const int file = receive(&answer, sizeof answer);
     unsigned char *bytes =
         answer.is_open && file >= 0 ? read_file(file, KILN_MAX_MESH_BYTES, size, &error) : NULL;
@@ -285,6 +288,7 @@ static bool send_array(void *user, void *array, size_t bytes)
 static void send_mesh(const struct kiln_decode_request *request, struct kiln_mesh_result *result)
 {
     const struct kiln_skin_result *skin = &result->skin;
+    const struct kiln_looks_result *looks = &result->looks;
     struct kiln_decode_answer answer = {.what = KILN_DECODE_MESH_MADE,
                                         .vertices = result->vertex_count,
                                         .triangles = result->triangle_count,
@@ -296,10 +300,16 @@ static void send_mesh(const struct kiln_decode_request *request, struct kiln_mes
                                         .keys = skin->key_count,
                                         .morphs = skin->morph_count,
                                         .morph_channels = skin->morph_channel_count,
-                                        .deltas = skin->delta_count};
+                                        .deltas = skin->delta_count,
+                                        .materials = looks->material_count,
+                                        .textures = looks->texture_count,
+                                        .texture_bytes = looks->byte_count,
+                                        .has_uvs = looks->has_uvs,
+                                        .has_second_uvs = looks->has_second_uvs,
+                                        .has_colors = looks->has_colors};
     snprintf(answer.text, sizeof answer.text, "%s", result->notes);
     send_answer(&answer);
-    kiln_mesh_visit_arrays(result, request->uvs, request->moving, send_array, NULL);
+    kiln_mesh_visit_arrays(result, request, send_array, NULL);
 }
 
 static void serve_mesh(const struct kiln_decode_request *request, int file)
@@ -307,6 +317,7 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
     struct kiln_error error = {0};
     struct decode_mesh mesh = {.format = (enum kiln_mesh_format)request->format,
                                .uvs = request->uvs,
+                               .materials = request->materials,
                                .moving = request->moving,
                                .open = ask_for_file};
     unsigned char *bytes = read_file(file, request->most_bytes, &mesh.size, &error);
@@ -321,8 +332,10 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
         send_text(KILN_DECODE_NEEDS_OTHER, "");
     else
         send_failure(&error, NULL);
-    if (result)
+    if (result) {
         free(result->skin.deltas);
+        free(result->looks.bytes);
+    }
     free(result);
     free(bytes);
 }

@@ -52,7 +52,8 @@ static read_model *const readers[] = {
 static bool read_still(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
                        struct kiln_error *error)
 {
-    struct decode_model model = {0};
+    struct decode_model model = {.looks = mesh->materials ? &result->looks : NULL,
+                                 .notes = result->notes};
     if (mesh->moving)
         return kiln_error_set(error, KILN_INVALID_INPUT, "the file has no animation");
     const bool ok =

@@ -26,6 +26,8 @@ void decode_model_finish(struct decode_model *model)
         free(mesh->positions);
         free(mesh->normals);
         free(mesh->uvs);
+        free(mesh->colors);
+        free(mesh->second_uvs);
         free(mesh->triangles);
     }
     free(model->meshes);

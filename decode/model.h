@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "kiln.h"
+#include "asset/geometry/material_in.h"
 
 /* Triangles that have one material. Corners are numbers of vertices, and vertices need not differ.
  */
@@ -16,8 +16,12 @@ struct decode_model_mesh {
     float (*positions)[3];
     float (*normals)[3]; /* of any length; NULL: the file has none */
     float (*uvs)[2];     /* NULL: none */
+    /* Those of a mesh that is read with its materials: colours of vertices and a second set of
+     * texture coordinates. NULL: none. */
+    float (*colors)[4], (*second_uvs)[2];
     uint32_t (*triangles)[3];
     uint32_t material; /* by which the triangles of a surface are ordered */
+    uint16_t look;     /* the number of the material in the result (looks.h) */
 };
 
 /* A mesh as a node of the file places it. */
@@ -32,6 +36,8 @@ struct decode_model {
     size_t mesh_count;
     struct decode_model_part *parts;
     size_t part_count;
+    struct kiln_looks_result *looks; /* where materials go; NULL: they are not wanted */
+    char *notes; /* for the user, a line each; KILN_MESSAGE_SIZE bytes (decode_note) */
 };
 
 /* Gives an empty model as many meshes, which are empty, and a part for each that leaves it where it

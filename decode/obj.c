@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "decode.h"
+#include "looks.h"
 #include "model.h"
 #include "polygon.h"
 #include "words.h"
@@ -22,6 +23,8 @@ struct corner {
 };
 
 enum { POSITION, UV, NORMAL };
+
+enum { MOST_LIBRARIES = 16 }; /* files of materials */
 
 /* Counts what lines of a file have. */
 struct counts {
@@ -42,6 +45,10 @@ struct reading {
     struct decode_text text;
     struct counts total, seen; /* of the file, and up to the line at hand */
     float (*positions)[3], (*uvs)[2], (*normals)[3];
+    float (*colors)[4]; /* of positions, if materials are wanted */
+    bool has_colors;
+    struct decode_word libraries[MOST_LIBRARIES]; /* names of files of materials */
+    size_t library_count;
     struct decode_word *names; /* of materials, as a hash table */
     uint32_t *materials;       /* their numbers */
     size_t table_size;
@@ -199,6 +206,20 @@ static bool read_value(const struct reading *r, struct decode_line *line, int ki
     return true;
 }
 
+/* Reads the colour of a vertex, which is sRGB: three numbers behind its position. */
+static void read_color(struct reading *r, struct decode_line *line, float out[4])
+{
+    struct decode_word word;
+    float color[3] = {1, 1, 1};
+    bool has = true;
+    for (int c = 0; c < 3; c++)
+        has = has && take_word(line, &word) && decode_word_float(&word, &color[c]);
+    for (int c = 0; c < 3; c++)
+        out[c] = has ? decode_light_of(decode_clamp(color[c], 0, 1)) : 1;
+    out[3] = 1;
+    r->has_colors = r->has_colors || has;
+}
+
 static float *place_of(const struct reading *r, int kind, size_t number)
 {
     return kind == POSITION ? r->positions[number]
@@ -214,13 +235,20 @@ static bool read_values(struct reading *r)
     r->positions = malloc((values[POSITION] + 1) * sizeof *r->positions);
     r->uvs = malloc((values[UV] + 1) * sizeof *r->uvs);
     r->normals = malloc((values[NORMAL] + 1) * sizeof *r->normals);
-    if (!r->positions || !r->uvs || !r->normals)
+    if (r->wanted->materials)
+        r->colors = malloc((values[POSITION] + 1) * sizeof *r->colors);
+    if (!r->positions || !r->uvs || !r->normals || (r->wanted->materials && !r->colors))
         return decode_out_of_memory(r->error);
     r->text = begin(r);
     while (decode_text_line(&r->text, &line)) {
         const int kind = decode_line_word(&line, &word) ? value_of(&word) : -1;
-        if (kind >= 0 && !read_value(r, &line, kind, place_of(r, kind, r->seen.values[kind]++)))
+        if (kind < 0)
+            continue;
+        const size_t number = r->seen.values[kind]++;
+        if (!read_value(r, &line, kind, place_of(r, kind, number)))
             return false;
+        if (kind == POSITION && r->colors)
+            read_color(r, &line, r->colors[number]);
     }
     r->seen = (struct counts){0};
     return true;
@@ -228,23 +256,11 @@ static bool read_values(struct reading *r)
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
-/* Takes the rest of a line, without blanks around it: names may have blanks in them. */
-static struct decode_word rest_of(struct decode_line *line)
-{
-    struct decode_word first = {line->at, 0}, word;
-    if (decode_line_word(line, &word)) {
-        first = word;
-        while (decode_line_word(line, &word))
-            first.length = (size_t)(word.start + word.length - first.start);
-    }
-    return first;
-}
-
 /* Notes the material of the faces that follow. Materials are numbered in the order in which the
  * file uses them; 0 is for faces before the first one. */
 static bool use_material(struct reading *r, struct decode_line *line)
 {
-    const struct decode_word name = rest_of(line);
+    const struct decode_word name = decode_line_rest(line);
     uint64_t hash = 14695981039346656037u; /* FNV-1a */
     if (!r->names) {
         r->table_size = 2 * r->total.materials + 1;
@@ -265,6 +281,31 @@ static bool use_material(struct reading *r, struct decode_line *line)
     }
     r->material = r->materials[slot];
     return true;
+}
+
+/* Returns whether a name ends in .mtl. */
+static bool is_whole_name(const struct decode_word *name)
+{
+    const struct decode_word end = {name->start + name->length - 4, 4};
+    return name->length > 4 && decode_word_is_like(&end, ".mtl");
+}
+
+/* Notes the files of materials that a line names. Names may have blanks in them, so each is as long
+ * as what ends in .mtl. */
+static void add_libraries(struct reading *r, struct decode_line *line)
+{
+    struct decode_word name = {NULL, 0}, word;
+    while (decode_line_word(line, &word)) {
+        name.start = name.start ? name.start : word.start;
+        name.length = (size_t)(word.start + word.length - name.start);
+        struct decode_line rest = *line;
+        if (!is_whole_name(&name) && decode_line_word(&rest, &word))
+            continue;
+        if (r->library_count < MOST_LIBRARIES)
+            r->libraries[r->library_count] = name;
+        r->library_count++;
+        name.start = NULL;
+    }
 }
 
 /* ---- faces ----------------------------------------------------------------------------------- */
@@ -306,7 +347,7 @@ static bool read_corner(const struct reading *r, const struct decode_word *word,
             return false;
         at = slash ? slash + 1 : end + 1;
     }
-    if (!r->wanted->uvs)
+    if (!r->wanted->uvs && !r->wanted->materials)
         out->numbers[UV] = 0;
     return at > end ||
            REFUSE(r, "line %zu: a corner '%.*s' has more than 3 numbers; no more are allowed",
@@ -399,9 +440,77 @@ static bool read_faces(struct reading *r)
         if (!decode_line_word(&line, &word))
             continue;
         count_line(&r->seen, &word);
+        if (r->wanted->materials && decode_word_is(&word, "mtllib"))
+            add_libraries(r, &line);
         if (is_face(&word) ? !read_face(r, &line)
                            : decode_word_is(&word, "usemtl") && !use_material(r, &line))
             return false;
+    }
+    return true;
+}
+
+/* ---- looks ----------------------------------------------------------------------------------- */
+
+/* Gets a file of materials from kiln, and reads it. Returns whether it could be read. */
+static bool read_library(const struct reading *r, const struct decode_word *name,
+                         struct decode_model *model, const struct decode_word *names,
+                         bool *is_found)
+{
+    char path[KILN_TEXTURE_PATH_SIZE];
+    size_t size = 0;
+    if (name->length >= sizeof path || !r->wanted->open)
+        return false;
+    for (size_t i = 0; i < name->length; i++)
+        path[i] = (char)(name->start[i] == '\\' ? '/' : name->start[i]);
+    path[name->length] = '\0';
+    unsigned char *bytes = r->wanted->open(r->wanted->user, KILN_COMPANION_MATERIALS, path, &size);
+    if (bytes)
+        decode_mtl(model, bytes, size, names, is_found);
+    free(bytes);
+    return bytes != NULL;
+}
+
+/* Finds the names of the materials of the result by their numbers, which are in ascending order. */
+static void find_names(const struct reading *r, const uint32_t *numbers, uint32_t count,
+                       struct decode_word *names)
+{
+    for (size_t slot = 0; slot < r->table_size; slot++) {
+        uint32_t low = 0, high = count;
+        while (low < high) {
+            const uint32_t middle = low + (high - low) / 2;
+            if (numbers[middle] < r->materials[slot])
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        if (r->materials[slot] > 0 && low < count && numbers[low] == r->materials[slot])
+            names[low] = r->names[slot];
+    }
+}
+
+/* Reads the materials that the faces have, if they are wanted. */
+static bool put_looks(struct reading *r, struct decode_model *model)
+{
+    uint32_t numbers[KILN_MAX_MATERIALS];
+    struct decode_word names[KILN_MAX_MATERIALS] = {{NULL, 0}};
+    bool is_found[KILN_MAX_MATERIALS] = {false}, all_read = true;
+    if (!model->looks)
+        return true;
+    if (!decode_assign_looks(model, 0, numbers, r->error))
+        return false;
+    const uint32_t count = model->looks->material_count;
+    find_names(r, numbers, count, names);
+    for (uint32_t i = 0; i < count; i++)
+        decode_copy_name(names[i].start, names[i].length, model->looks->materials[i].name);
+    if (r->library_count > MOST_LIBRARIES)
+        decode_note(model->notes, "the mesh names %zu files of materials; only %d are read",
+                    r->library_count, MOST_LIBRARIES);
+    for (size_t i = 0; i < r->library_count && i < MOST_LIBRARIES && count > 0; i++)
+        all_read = read_library(r, &r->libraries[i], model, names, is_found) && all_read;
+    for (uint32_t i = 0; i < count && all_read; i++) {
+        if (!is_found[i])
+            decode_note(model->notes, "no file that the mesh names has its material '%s'",
+                        model->looks->materials[i].name);
     }
     return true;
 }
@@ -416,15 +525,18 @@ static bool put_mesh(const struct reading *r, const struct run *run, struct deco
     mesh->positions = malloc(count * sizeof *mesh->positions);
     mesh->normals = run->has_normals ? malloc(count * sizeof *mesh->normals) : NULL;
     mesh->uvs = run->has_uvs ? malloc(count * sizeof *mesh->uvs) : NULL;
+    mesh->colors = r->has_colors ? malloc(count * sizeof *mesh->colors) : NULL;
     mesh->triangles = malloc(mesh->triangle_count * sizeof *mesh->triangles);
     if (!mesh->positions || !mesh->triangles || (run->has_normals && !mesh->normals) ||
-        (run->has_uvs && !mesh->uvs))
+        (run->has_uvs && !mesh->uvs) || (r->has_colors && !mesh->colors))
         return decode_out_of_memory(r->error);
     for (size_t i = 0; i < count; i++) {
         const uint32_t *numbers = vertices[i].numbers;
         memcpy(mesh->positions[i], r->positions[numbers[POSITION] - 1], sizeof *mesh->positions);
         if (mesh->normals)
             memcpy(mesh->normals[i], r->normals[numbers[NORMAL] - 1], sizeof *mesh->normals);
+        if (mesh->colors)
+            memcpy(mesh->colors[i], r->colors[numbers[POSITION] - 1], sizeof *mesh->colors);
         if (mesh->uvs)
             memcpy(mesh->uvs[i], numbers[UV] > 0 ? r->uvs[numbers[UV] - 1] : none,
                    sizeof *mesh->uvs);
@@ -458,11 +570,12 @@ bool decode_obj(const struct decode_mesh *wanted, struct decode_model *model,
     if (ok && r.triangle_count == 0)
         ok = REFUSE(&r, "the mesh has no triangles%s",
                     r.total.others > 0 ? ", only points or lines" : "");
-    ok = ok && put_meshes(&r, model);
+    ok = ok && put_meshes(&r, model) && put_looks(&r, model);
     decode_polygon_finish(&r.polygon);
     free(r.positions);
     free(r.uvs);
     free(r.normals);
+    free(r.colors);
     free(r.names);
     free(r.materials);
     free(r.vertices);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bytes.h"
 #include "decode.h"
+#include "looks.h"
 #include "model.h"
 #include "polygon.h"
 #include "words.h"
@@ -33,14 +34,46 @@ static const struct {
 };
 
 /* What the numbers of a vertex are, in the order in which they are kept. */
-enum role { X, Y, Z, NORMAL_X, NORMAL_Y, NORMAL_Z, U, V, ROLE_COUNT, NO_ROLE };
+enum role {
+    X,
+    Y,
+    Z,
+    NORMAL_X,
+    NORMAL_Y,
+    NORMAL_Z,
+    U,
+    V,
+    RED,
+    GREEN,
+    BLUE,
+    ALPHA,
+    ROLE_COUNT,
+    NO_ROLE
+};
 
 /* Common names of properties. There is no standard for those of texture coordinates. */
 static const struct {
     const char *name;
     enum role role;
-} roles[] = {{"x", X}, {"y", Y}, {"z", Z}, {"nx", NORMAL_X}, {"ny", NORMAL_Y}, {"nz", NORMAL_Z},
-             {"s", U}, {"t", V}, {"u", U}, {"v", V},         {"texture_u", U}, {"texture_v", V}};
+} roles[] = {{"x", X},
+             {"y", Y},
+             {"z", Z},
+             {"nx", NORMAL_X},
+             {"ny", NORMAL_Y},
+             {"nz", NORMAL_Z},
+             {"s", U},
+             {"t", V},
+             {"u", U},
+             {"v", V},
+             {"texture_u", U},
+             {"texture_v", V},
+             {"red", RED},
+             {"green", GREEN},
+             {"blue", BLUE},
+             {"diffuse_red", RED},
+             {"diffuse_green", GREEN},
+             {"diffuse_blue", BLUE},
+             {"alpha", ALPHA}};
 
 struct property {
     enum type type, count_type;
@@ -330,16 +363,35 @@ static bool allocate_vertices(struct reading *r)
     mesh->positions = malloc((count + 1) * sizeof *mesh->positions);
     if (has_roles(r, NORMAL_X, NORMAL_Z))
         mesh->normals = malloc((count + 1) * sizeof *mesh->normals);
-    if (r->wanted->uvs && has_roles(r, U, V))
+    const bool uvs = (r->wanted->uvs || r->wanted->materials) && has_roles(r, U, V);
+    const bool colors = r->wanted->materials && has_roles(r, RED, BLUE);
+    if (uvs)
         mesh->uvs = malloc((count + 1) * sizeof *mesh->uvs);
+    if (colors)
+        mesh->colors = malloc((count + 1) * sizeof *mesh->colors);
     return (mesh->positions && (mesh->normals || !has_roles(r, NORMAL_X, NORMAL_Z)) &&
-            (mesh->uvs || !r->wanted->uvs || !has_roles(r, U, V))) ||
+            (mesh->uvs || !uvs) && (mesh->colors || !colors)) ||
            decode_out_of_memory(r->error);
+}
+
+/* Makes a number of a colour one from 0 to 1: integers are parts of their largest value. */
+static double part_of(const struct property *property, double number)
+{
+    const size_t bits = 8 * types[property->type].size - types[property->type].is_signed;
+    return property->type < FLOAT32 ? number / (double)(((uint64_t)1 << bits) - 1) : number;
+}
+
+/* Stores the colour of a vertex, which is sRGB in the file. */
+static void put_color(const float values[ROLE_COUNT], float out[4])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = decode_light_of(decode_clamp(values[RED + c], 0, 1));
+    out[3] = decode_clamp(values[ALPHA], 0, 1);
 }
 
 static bool read_vertex(struct reading *r, size_t i)
 {
-    float values[ROLE_COUNT] = {0};
+    float values[ROLE_COUNT] = {[ALPHA] = 1};
     for (size_t k = 0; k < r->element->property_count; k++) {
         const struct property *property = &r->properties[r->element->first + k];
         double number = 0;
@@ -350,11 +402,14 @@ static bool read_vertex(struct reading *r, size_t i)
         }
         if (!read_number(r, property->type, &number))
             return false;
-        values[property->role] = (float)number;
+        values[property->role] =
+            (float)(property->role >= RED ? part_of(property, number) : number);
     }
     memcpy(r->mesh->positions[i], values + X, sizeof *r->mesh->positions);
     if (r->mesh->normals)
         memcpy(r->mesh->normals[i], values + NORMAL_X, sizeof *r->mesh->normals);
+    if (r->mesh->colors)
+        put_color(values, r->mesh->colors[i]);
     for (int c = 0; r->mesh->uvs && c < 2; c++)
         r->mesh->uvs[i][c] = isfinite(values[U + c]) ? values[U + c] : 0.0f;
     return true;

@@ -38,6 +38,11 @@ struct part {
     const double (*rows)[4];
 };
 
+/* What a corner has besides if materials are wanted. It is kept apart, since corners are many. */
+struct extra {
+    float color[4], second_uv[2];
+};
+
 struct surface {
     const struct decode_mesh *wanted;
     struct kiln_mesh_result *result;
@@ -46,8 +51,10 @@ struct surface {
     size_t part_count;
     struct decode_corner *corners; /* three a triangle */
     size_t corner_count;
-    double (*faces)[3]; /* unit normals of triangles, or 0 */
-    double *angles;     /* of triangles at their corners, radians */
+    struct kiln_looks_result *looks; /* NULL: materials are not wanted */
+    struct extra *extras;            /* of the corners, if they are */
+    double (*faces)[3];              /* unit normals of triangles, or 0 */
+    double *angles;                  /* of triangles at their corners, radians */
 };
 
 /* ---- parts ----------------------------------------------------------------------------------- */
@@ -141,6 +148,38 @@ static void put_corner(const struct part *part, const double cofactors[3][3], ui
     corner->uv[1] = mesh->uvs ? mesh->uvs[vertex][1] : 0.0f;
 }
 
+/* Stores colour and second texture coordinates of a vertex. */
+static void put_extra(const struct decode_model_mesh *mesh, uint32_t vertex, struct extra *extra)
+{
+    static const float white[4] = {1, 1, 1, 1}, none[2] = {0};
+    memcpy(extra->color, mesh->colors ? mesh->colors[vertex] : white, sizeof white);
+    memcpy(extra->second_uv, mesh->second_uvs ? mesh->second_uvs[vertex] : none, sizeof none);
+}
+
+/* Stores what the corners of a part's triangle have besides. triangle: its number in the surface.
+ */
+static void put_extras(struct surface *s, const struct part *part, size_t triangle,
+                       const uint32_t corners[3])
+{
+    if (!s->extras)
+        return;
+    for (size_t c = 0; c < 3; c++)
+        put_extra(part->mesh, corners[c], &s->extras[3 * triangle + c]);
+    s->looks->of_triangles[triangle] =
+        s->looks->material_count > 0 ? part->mesh->look : KILN_NO_MATERIAL;
+}
+
+/* Finds which attributes some vertices have. */
+static void find_attributes(struct surface *s)
+{
+    for (size_t i = 0; s->looks && i < s->part_count; i++) {
+        const struct decode_model_mesh *mesh = s->parts[i].mesh;
+        s->looks->has_uvs = s->looks->has_uvs || mesh->uvs != NULL;
+        s->looks->has_second_uvs = s->looks->has_second_uvs || mesh->second_uvs != NULL;
+        s->looks->has_colors = s->looks->has_colors || mesh->colors != NULL;
+    }
+}
+
 static void put_corners(struct surface *s)
 {
     struct decode_corner *corner = s->corners;
@@ -152,9 +191,10 @@ static void put_corners(struct surface *s)
         const int second = find_cofactors(part->rows, cofactors) ? 2 : 1;
         for (size_t k = 0; k < part->mesh->triangle_count; k++) {
             const uint32_t *triangle = part->mesh->triangles[k];
-            put_corner(part, cofactors, triangle[0], corner++);
-            put_corner(part, cofactors, triangle[second], corner++);
-            put_corner(part, cofactors, triangle[3 - second], corner++);
+            const uint32_t turned[3] = {triangle[0], triangle[second], triangle[3 - second]};
+            put_extras(s, part, (size_t)(corner - s->corners) / 3, turned);
+            for (int c = 0; c < 3; c++)
+                put_corner(part, cofactors, turned[c], corner++);
         }
     }
 }
@@ -296,22 +336,34 @@ bool decode_find_normals(struct decode_corner *corners, size_t count, struct kil
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-/* Finds the number of a corner's vertex, which is an equal vertex or a new one. */
+/* Returns whether a vertex has the colour and second texture coordinates of a corner. */
+static bool has_extra(const struct surface *s, uint32_t vertex, const struct extra *extra)
+{
+    return memcmp(s->looks->colors[vertex], extra->color, sizeof extra->color) == 0 &&
+           memcmp(s->looks->second_uvs[vertex], extra->second_uv, sizeof extra->second_uv) == 0;
+}
+
+/* Finds the number of a corner's vertex, which is an equal vertex or a new one. extra: NULL if
+ * materials are not wanted. */
 static bool join(struct surface *s, struct table *table, const struct decode_corner *corner,
-                 uint32_t *number)
+                 const struct extra *extra, uint32_t *number)
 {
     struct kiln_mesh_result *result = s->result;
-    const bool uvs = s->wanted->uvs;
+    const bool uvs = s->wanted->uvs || extra;
     float key[8] = {0};
     memcpy(key, corner->position, sizeof corner->position);
     memcpy(key + 3, corner->normal, sizeof corner->normal);
     if (uvs)
         memcpy(key + 6, corner->uv, sizeof corner->uv);
-    size_t slot = hash_of(key, sizeof key) % table->size;
+    uint32_t hash = hash_of(key, sizeof key);
+    if (extra)
+        hash ^= hash_of(extra, sizeof *extra) * 31;
+    size_t slot = hash % table->size;
     for (; table->slots[slot] > 0; slot = (slot + 1) % table->size) {
         *number = table->slots[slot] - 1;
         if (memcmp(result->vertices[*number], key, sizeof *result->vertices) == 0 &&
-            (!uvs || memcmp(result->uvs[*number], key + 6, sizeof *result->uvs) == 0))
+            (!uvs || memcmp(result->uvs[*number], key + 6, sizeof *result->uvs) == 0) &&
+            (!extra || has_extra(s, *number, extra)))
             return true;
     }
     if (result->vertex_count == KILN_MAX_MESH_VERTICES)
@@ -321,6 +373,10 @@ static bool join(struct surface *s, struct table *table, const struct decode_cor
     memcpy(result->vertices[*number], key, sizeof *result->vertices);
     if (uvs)
         memcpy(result->uvs[*number], key + 6, sizeof *result->uvs);
+    if (extra) {
+        memcpy(s->looks->colors[*number], extra->color, sizeof extra->color);
+        memcpy(s->looks->second_uvs[*number], extra->second_uv, sizeof extra->second_uv);
+    }
     return true;
 }
 
@@ -334,7 +390,8 @@ static bool put_triangles(struct surface *s)
     if (!ok)
         decode_out_of_memory(s->error);
     for (size_t i = 0; ok && i < s->corner_count; i++)
-        ok = join(s, &table, &s->corners[i], &result->triangles[i / 3][i % 3]);
+        ok = join(s, &table, &s->corners[i], s->extras ? &s->extras[i] : NULL,
+                  &result->triangles[i / 3][i % 3]);
     result->triangle_count = (uint32_t)(s->corner_count / 3);
     free(table.slots);
     return ok;
@@ -353,20 +410,30 @@ static bool check_uvs(const struct surface *s)
     return true;
 }
 
-bool decode_surface(const struct decode_mesh *wanted, const struct decode_model *model,
+/* Takes memory for the corners, and puts them there. */
+static bool make_corners(struct surface *s)
+{
+    s->corners = malloc(s->corner_count * sizeof *s->corners);
+    s->extras = s->looks ? malloc(s->corner_count * sizeof *s->extras) : NULL;
+    if (!s->corners || (s->looks && !s->extras))
+        return decode_out_of_memory(s->error);
+    put_corners(s);
+    return true;
+}
+
+bool decode_surface(const struct decode_mesh *wanted, struct decode_model *model,
                     struct kiln_mesh_result *result, struct kiln_error *error)
 {
-    struct surface s = {.wanted = wanted, .result = result, .error = error};
+    struct surface s = {.wanted = wanted, .result = result, .error = error, .looks = model->looks};
     bool ok = find_parts(&s, model) && check_uvs(&s);
-    if (ok && s.part_count > 0)
+    if (ok && s.corner_count > 0) {
         qsort(s.parts, s.part_count, sizeof *s.parts, by_material);
-    s.corners = ok && s.corner_count > 0 ? malloc(s.corner_count * sizeof *s.corners) : NULL;
-    if (ok && s.corner_count > 0 && !s.corners)
-        ok = decode_out_of_memory(error);
-    if (s.corners) {
-        put_corners(&s);
-        ok = find_normals(&s) && put_triangles(&s);
+        find_attributes(&s);
+        ok = make_corners(&s);
+        decode_model_finish(model);
+        ok = ok && find_normals(&s) && put_triangles(&s);
     }
+    free(s.extras);
     free(s.corners);
     free(s.parts);
     return ok;

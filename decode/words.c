@@ -76,6 +76,17 @@ bool decode_line_word(struct decode_line *line, struct decode_word *word)
     return word->length > 0;
 }
 
+struct decode_word decode_line_rest(struct decode_line *line)
+{
+    struct decode_word first = {line->at, 0}, word;
+    if (decode_line_word(line, &word)) {
+        first = word;
+        while (decode_line_word(line, &word))
+            first.length = (size_t)(word.start + word.length - first.start);
+    }
+    return first;
+}
+
 bool decode_word_is(const struct decode_word *word, const char *text)
 {
     return strlen(text) == word->length && memcmp(text, word->start, word->length) == 0;

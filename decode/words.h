@@ -36,6 +36,9 @@ bool decode_text_line(struct decode_text *text, struct decode_line *line);
 /* Takes the next word of a line. False: there is none. */
 bool decode_line_word(struct decode_line *line, struct decode_word *word);
 
+/* Takes the rest of a line, without blanks around it: names may have blanks in them. */
+struct decode_word decode_line_rest(struct decode_line *line);
+
 bool decode_word_is(const struct decode_word *word, const char *text);
 
 /* Compares without regard to the case of ASCII letters. `text` is in lower case. */

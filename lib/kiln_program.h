@@ -93,7 +93,8 @@ struct kiln_mesh_info {
     const struct kiln_mesh_clip *clips;
     uint32_t clip_count;
     const char *open;  /* where it is open; "": it is closed */
-    const char *notes; /* what was changed or left out: a line each, none at the end */
+    const char *looks; /* materials and colours of vertices: a line each */
+    const char *notes; /* what was changed or left out: a line each */
     double thinnest;   /* of a closed mesh: its thinnest part, in units of the file; or infinite */
 };
 

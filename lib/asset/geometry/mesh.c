@@ -60,6 +60,7 @@ struct kiln_mesh *kiln_mesh_copy(const struct kiln_mesh *mesh)
     struct kiln_mesh *other = copy_of(mesh, 1, sizeof *mesh);
     if (!other)
         return NULL;
+    other->looks = NULL;
     other->vertices = copy_of(mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices);
     other->triangles = copy_of(mesh->triangles, mesh->triangle_count, sizeof *mesh->triangles);
     other->uvs = mesh->uvs ? copy_of(mesh->uvs, mesh->vertex_count, sizeof *mesh->uvs) : NULL;
@@ -75,6 +76,7 @@ void kiln_mesh_destroy(struct kiln_mesh **mesh)
     free((*mesh)->vertices);
     free((*mesh)->triangles);
     free((*mesh)->uvs);
+    kiln_mesh_looks_destroy(&(*mesh)->looks);
     free(*mesh);
     *mesh = NULL;
 }

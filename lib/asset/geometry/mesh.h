@@ -15,6 +15,7 @@
 #include "kiln.h"
 
 struct kiln_loader;
+struct kiln_mesh_looks;
 
 enum {
     KILN_MAX_MESH_BYTES = 64 << 20, /* bytes of the file, and of each buffer that it names */
@@ -34,6 +35,9 @@ struct kiln_mesh {
     uint32_t (*triangles)[3];              /* indices below vertex_count */
     /* texture coordinates of the vertices of an unwrapped mesh, else NULL */
     float (*uvs)[2];
+    /* materials, of a mesh that was loaded with them, else NULL; its vertices have `uvs`, too, if
+     * the file has some (asset/geometry/material.h) */
+    struct kiln_mesh_looks *looks;
     float min[3], max[3];        /* bounds of the positions */
     uint32_t morph_target_count; /* of the meshes that a glTF file shows, together */
     /* SHA-256, in hex, of the hashes of the files that were read. Hashes of scenes and of their
@@ -59,17 +63,27 @@ struct kiln_mesh *kiln_mesh_load(struct kiln_loader *loader, const char *path,
 struct kiln_mesh *kiln_mesh_load_unwrapped(struct kiln_loader *loader, const char *path,
                                            struct kiln_error *error);
 
+/* Loads a mesh as kiln_mesh_load does, with its materials, and with what vertices have of texture
+ * coordinates and colours. Vertices that differ only in these stay separate. The files that
+ * materials name must lie in the mesh's folder or below, too. One that is missing, too large or
+ * elsewhere is no error: the mesh's notes say so. They are no part of the mesh's hash. Textures are
+ * not decoded. */
+struct kiln_mesh *kiln_mesh_load_with_materials(struct kiln_loader *loader, const char *path,
+                                                struct kiln_error *error);
+
 /* Reverses all triangles if the volume that they enclose is negative, since files differ in which
  * winding is outside. */
 void kiln_mesh_face_outwards(struct kiln_mesh *mesh);
 
-/* Copies a mesh. NULL when memory is short. The caller destroys the copy. */
+/* Copies a mesh without its materials. NULL when memory is short. The caller destroys the copy. */
 struct kiln_mesh *kiln_mesh_copy(const struct kiln_mesh *mesh);
 
 /* Loads a mesh as kiln_mesh_load does, from bytes in memory, which may name no other files. The end
- * of `name` tells the format, and `name` stands for the file in messages. Only tests call this. */
+ * of `name` tells the format, and `name` stands for the file in messages. Only tests call these. */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error);
+struct kiln_mesh *kiln_mesh_parse_with_materials(const void *bytes, size_t size, const char *name,
+                                                 struct kiln_error *error);
 void kiln_mesh_destroy(struct kiln_mesh **mesh);
 
 #endif

@@ -2,11 +2,14 @@
  * sender and the receiver both use this list, so they agree. */
 #include "asset/geometry/mesh_in.h"
 
-bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool moving,
+bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result,
+                            const struct kiln_decode_request *wanted,
                             bool (*visit)(void *user, void *array, size_t bytes), void *user)
 {
     struct kiln_skin_result *skin = &result->skin;
+    struct kiln_looks_result *looks = &result->looks;
     const size_t vertices = result->vertex_count;
+    const bool moving = wanted->moving, materials = wanted->materials;
     const struct {
         void *array;
         size_t count, size;
@@ -14,7 +17,14 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool movi
     } arrays[] = {
         {result->vertices, vertices, sizeof *result->vertices, true},
         {result->triangles, result->triangle_count, sizeof *result->triangles, true},
-        {result->uvs, vertices, sizeof *result->uvs, uvs},
+        {result->uvs, vertices, sizeof *result->uvs, wanted->uvs || (materials && looks->has_uvs)},
+        {looks->materials, looks->material_count, sizeof *looks->materials, materials},
+        {looks->textures, looks->texture_count, sizeof *looks->textures, materials},
+        {looks->bytes, looks->byte_count, 1, materials},
+        {looks->of_triangles, result->triangle_count, sizeof *looks->of_triangles, materials},
+        {looks->colors, vertices, sizeof *looks->colors, materials && looks->has_colors},
+        {looks->second_uvs, vertices, sizeof *looks->second_uvs,
+         materials && looks->has_second_uvs},
         {skin->nodes, skin->node_count, sizeof *skin->nodes, moving},
         {skin->bones, skin->bone_count, sizeof *skin->bones, moving},
         {skin->clips, skin->clip_count, sizeof *skin->clips, moving},
@@ -26,7 +36,8 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool movi
         {skin->deltas, skin->delta_count, sizeof *skin->deltas, moving},
     };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        if (arrays[i].wanted && !visit(user, arrays[i].array, arrays[i].count * arrays[i].size))
+        if (arrays[i].wanted && arrays[i].count > 0 &&
+            !visit(user, arrays[i].array, arrays[i].count * arrays[i].size))
             return false;
     }
     return true;

@@ -16,7 +16,13 @@
 
 #define ALLOWED "OBJ, glTF, GLB, PLY or STL"
 
-enum { MAX_FILES = 64, MAX_WISHES = 100 };
+enum {
+    MAX_FILES = 64,
+    MAX_WISHES = 100, /* of files without which the mesh is not read */
+    MAX_MATERIAL_WISHES = 16,
+    MAX_MATERIAL_BYTES = 16 << 20,
+    MAX_TEXTURE_FILE_BYTES = 1 << 30,
+};
 
 static const float MAX_COORDINATE = 1e6f;
 
@@ -29,6 +35,8 @@ struct request {
     struct kiln_helper *helper;
     struct kiln_error refusal; /* error of the first file that may not be opened, if any */
     struct kiln_error start;   /* error of a process that could not be started, if any */
+    /* what kiln has to say of files that a mesh is read without: a line each */
+    char notes[KILN_MESSAGE_SIZE];
     /* hashes of the file and of those that it names, in that order */
     char hashes[MAX_FILES * 64 + 1];
     size_t hash_length;
@@ -50,39 +58,26 @@ static bool note_contents(struct request *request, int file, struct kiln_error *
     return true;
 }
 
-/* Returns whether a path leads only downwards, by its text. */
-static bool stays_below(const char *path)
-{
-    if (path[0] == '/' || strchr(path, ':') || strchr(path, '\\'))
-        return false;
-    for (const char *part = path; *part;) {
-        size_t length = strcspn(part, "/");
-        if (length == 2 && part[0] == '.' && part[1] == '.')
-            return false;
-        part += length + (part[length] == '/');
-    }
-    return true;
-}
-
-/* Opens a file that the mesh file names. Returns the descriptor or -1. */
-static int open_named(struct request *request, const char *name, struct kiln_error *error)
+/* Opens a file that the mesh file names. `file` says what it is, but for its path. The error is
+ * what follows the name of the mesh file in a message. Returns the descriptor or -1. */
+static int open_companion(const struct request *request, const char *name,
+                          struct kiln_loader_file file, struct kiln_error *error)
 {
     const char *slash = strrchr(request->name, '/');
     const int folder = slash ? (int)(slash - request->name) + 1 : 0;
     char path[KILN_PATH_SIZE];
-    if (request->alone || !stays_below(name)) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: the mesh file names the file '%.200s'; %s",
-                       request->name, name,
+    if (request->alone || !kiln_path_stays_below(name)) {
+        kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file names the file '%.200s'; %s", name,
                        request->alone ? "a file of this name must not name other files"
                                       : "its files must lie in its folder or below");
         return -1;
     }
     if (snprintf(path, sizeof path, "%.*s%s", folder, request->name, name) >= (int)sizeof path) {
         kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: the mesh file names a file whose path is too long", request->name);
+                       "the mesh file names a file whose path is too long");
         return -1;
     }
-    const struct kiln_loader_file file = {path, "buffer", "glTF buffer", KILN_MAX_MESH_BYTES};
+    file.path = path;
     struct kiln_error reason = {0};
     size_t size = 0;
     int opened = kiln_loader_open(request->loader, &file, &size, &reason);
@@ -90,9 +85,19 @@ static int open_named(struct request *request, const char *name, struct kiln_err
         /* the reason alone: the message begins with the path, which `name` replaces */
         const char *said = strstr(reason.message, ": ");
         kiln_error_set(error, reason.code == KILN_IO ? KILN_INVALID_INPUT : reason.code,
-                       "%s: the mesh file names the file '%.200s'%s", request->name, name,
-                       said ? said : "");
+                       "the mesh file names the file '%.200s'%s", name, said ? said : "");
     }
+    return opened;
+}
+
+/* Opens a buffer of a glTF file, whose contents are a part of the mesh. */
+static int open_buffer(struct request *request, const char *name, struct kiln_error *error)
+{
+    const struct kiln_loader_file file = {NULL, "buffer", "glTF buffer", KILN_MAX_MESH_BYTES};
+    struct kiln_error reason = {0};
+    int opened = open_companion(request, name, file, &reason);
+    if (opened < 0)
+        kiln_error_set(error, reason.code, "%s: %.900s", request->name, reason.message);
     if (opened >= 0 && !note_contents(request, opened, error)) {
         close(opened);
         opened = -1;
@@ -100,11 +105,58 @@ static int open_named(struct request *request, const char *name, struct kiln_err
     return opened;
 }
 
-/* Sends the process a file that it asked for, or that it may not be read. */
-static bool hand_over(struct request *request, const char *name, struct kiln_error *error)
+/* Adds lines to notes, as far as there is room for them. */
+static void add_notes(char notes[KILN_MESSAGE_SIZE], const char *lines)
 {
-    const int file =
-        request->refusal.code == KILN_OK ? open_named(request, name, &request->refusal) : -1;
+    size_t length = strlen(notes);
+    if (length > 0 && *lines && length < KILN_MESSAGE_SIZE - 1)
+        notes[length++] = '\n';
+    for (; *lines && length < KILN_MESSAGE_SIZE - 1; lines++)
+        notes[length++] = (char)((unsigned char)*lines >= ' ' || *lines == '\n' ? *lines : ' ');
+    notes[length] = '\0';
+}
+
+/* Opens a file without which the mesh is read, too: then a note says why it is not. The file is no
+ * part of the mesh's hash. */
+static int open_optional(struct request *request, const char *name, struct kiln_loader_file file)
+{
+    struct kiln_error reason = {0};
+    const int opened = open_companion(request, name, file, &reason);
+    if (opened < 0)
+        add_notes(request->notes, reason.message);
+    return opened;
+}
+
+static int open_materials(struct request *request, const char *name)
+{
+    static const struct kiln_loader_file file = {NULL, "materials", "MTL", MAX_MATERIAL_BYTES};
+    return request->wanted.materials ? open_optional(request, name, file) : -1;
+}
+
+/* Notes which textures are missing: each is opened, but not read. */
+static void find_textures(struct request *request, struct kiln_mesh_looks *looks)
+{
+    static const struct kiln_loader_file file = {NULL, "image", "pictures", MAX_TEXTURE_FILE_BYTES};
+    for (uint32_t i = 0; i < looks->texture_count; i++) {
+        struct kiln_texture *texture = &looks->textures[i];
+        if (!*texture->file)
+            continue;
+        const int opened = open_optional(request, texture->file, file);
+        texture->is_missing = opened < 0;
+        if (opened >= 0)
+            close(opened);
+    }
+}
+
+/* Sends the process a file that it asked for, or that it may not be read. */
+static bool hand_over(struct request *request, const struct kiln_decode_answer *wish,
+                      struct kiln_error *error)
+{
+    int file = -1;
+    if (wish->companion == KILN_COMPANION_MATERIALS)
+        file = open_materials(request, wish->text);
+    else if (request->refusal.code == KILN_OK)
+        file = open_buffer(request, wish->text, &request->refusal);
     const struct kiln_decode_file answer = {.is_open = file >= 0};
     const bool sent = kiln_helper_send(request->helper, &answer, sizeof answer, file, error);
     if (file >= 0)
@@ -167,11 +219,6 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
         memcpy(mesh->uvs, result->uvs, mesh->vertex_count * sizeof *mesh->uvs);
     memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
-    snprintf(mesh->notes, sizeof mesh->notes, "%s", result->notes);
-    for (char *c = mesh->notes; *c; c++) {
-        if ((unsigned char)*c < ' ' && *c != '\n')
-            *c = ' ';
-    }
     kiln_mesh_find_bounds(mesh);
     return mesh;
 }
@@ -193,8 +240,12 @@ static bool receive_array(void *user, void *array, size_t bytes)
 static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving)
 {
     const struct kiln_skin_result *skin = &result->skin;
+    const struct kiln_looks_result *looks = &result->looks;
     return result->vertex_count >= 3 && result->vertex_count <= KILN_MAX_MESH_VERTICES &&
            result->triangle_count >= 1 && result->triangle_count <= KILN_MAX_MESH_TRIANGLES &&
+           looks->material_count <= KILN_MAX_MATERIALS &&
+           looks->texture_count <= KILN_MAX_TEXTURES &&
+           looks->byte_count <= KILN_MAX_TEXTURE_BYTES &&
            (!moving ||
             (skin->node_count <= KILN_MAX_SKIN_NODES && skin->bone_count <= KILN_MAX_SKIN_BONES &&
              skin->clip_count <= KILN_MAX_CLIPS && skin->channel_count <= KILN_MAX_CLIP_CHANNELS &&
@@ -216,7 +267,29 @@ static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mes
     result->skin.morph_count = answer->morphs;
     result->skin.morph_channel_count = answer->morph_channels;
     result->skin.delta_count = answer->deltas;
+    result->looks.material_count = answer->materials;
+    result->looks.texture_count = answer->textures;
+    result->looks.byte_count = answer->texture_bytes;
+    result->looks.has_uvs = answer->has_uvs;
+    result->looks.has_second_uvs = answer->has_second_uvs;
+    result->looks.has_colors = answer->has_colors;
     snprintf(result->notes, sizeof result->notes, "%s", answer->text);
+}
+
+/* Takes memory for the arrays whose largest sizes are too large to have it always. */
+static bool allocate_arrays(const struct request *request, struct kiln_mesh_result *result,
+                            struct kiln_error *reason)
+{
+    struct kiln_skin_result *skin = &result->skin;
+    struct kiln_looks_result *looks = &result->looks;
+    const bool morphs = request->wanted.moving && skin->delta_count > 0;
+    const bool textures = request->wanted.materials && looks->byte_count > 0;
+    if (morphs)
+        skin->deltas = calloc(skin->delta_count, sizeof *skin->deltas);
+    if (textures)
+        looks->bytes = malloc(looks->byte_count);
+    return ((!morphs || skin->deltas) && (!textures || looks->bytes)) ||
+           kiln_error_no_memory(reason, "its morph targets or textures");
 }
 
 /* Takes the arrays of an answer. */
@@ -228,12 +301,8 @@ static bool receive_arrays(struct request *request, struct kiln_mesh_result *res
     if (!are_counts_sound(result, moving))
         return kiln_error_set(reason, KILN_INVALID_INPUT,
                               "the importer returned inconsistent data");
-    if (moving && result->skin.delta_count > 0) {
-        result->skin.deltas = calloc(result->skin.delta_count, sizeof *result->skin.deltas);
-        if (!result->skin.deltas)
-            return kiln_error_no_memory(reason, "its morph targets");
-    }
-    return kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array, &receiving);
+    return allocate_arrays(request, result, reason) &&
+           kiln_mesh_visit_arrays(result, &request->wanted, receive_array, &receiving);
 }
 
 /* Waits for the answer, and sends the files that the process asks for meanwhile. */
@@ -241,14 +310,16 @@ static bool await(struct request *request, unsigned other, struct kiln_decode_an
                   struct kiln_error *error)
 {
     const unsigned expected = 1u << KILN_DECODE_NEEDS_FILE | 1u << KILN_DECODE_MESH_MADE | other;
-    for (int wishes = 0; wishes < MAX_WISHES; wishes++) {
+    int wishes = 0, material_wishes = 0;
+    while (wishes < MAX_WISHES && material_wishes <= MAX_MATERIAL_WISHES) {
         if (!kiln_helper_answer(request->helper, kiln_loader_caller(request->loader), expected,
                                 answer, error))
             return false;
         if (answer->what != KILN_DECODE_NEEDS_FILE)
             return true;
-        if (!hand_over(request, answer->text, error))
+        if (!hand_over(request, answer, error))
             return false;
+        ++*(answer->companion == KILN_COMPANION_MATERIALS ? &material_wishes : &wishes);
     }
     return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file names too many files");
 }
@@ -299,11 +370,22 @@ static struct imported take(struct request *request, const struct kiln_mesh_resu
     struct imported imported = {NULL, NULL};
     if (!check(request->name, result, error))
         return imported;
-    struct kiln_mesh *mesh = copy(result, request->wanted.uvs);
+    const bool uvs = request->wanted.uvs || (request->wanted.materials && result->looks.has_uvs);
+    struct kiln_mesh *mesh = copy(result, uvs);
     if (!mesh) {
         kiln_error_no_memory(error, "reading the mesh of %s", request->name);
         return imported;
     }
+    if (request->wanted.materials) {
+        mesh->looks = kiln_looks_take(request->name, result, error);
+        if (!mesh->looks) {
+            kiln_mesh_destroy(&mesh);
+            return imported;
+        }
+        find_textures(request, mesh->looks);
+    }
+    add_notes(mesh->notes, request->notes);
+    add_notes(mesh->notes, result->notes);
     kiln_hash_sha256(request->hashes, request->hash_length, mesh->hash);
     if (request->wanted.moving)
         imported.skin = kiln_skin_take(request->name, result, mesh, error);
@@ -389,8 +471,10 @@ static struct imported import(struct request *request, int file, struct kiln_err
     if (result && receive(request, file, result, error))
         imported = take(request, result, error);
     kiln_helper_end(&request->helper);
-    if (result)
+    if (result) {
         free(result->skin.deltas);
+        free(result->looks.bytes);
+    }
     free(result);
     return imported;
 }
@@ -444,6 +528,20 @@ struct kiln_mesh *kiln_mesh_load_unwrapped(struct kiln_loader *loader, const cha
 {
     struct request request = {.loader = loader, .name = path, .wanted = {.uvs = 1}};
     return load(&request, error).mesh;
+}
+
+struct kiln_mesh *kiln_mesh_load_with_materials(struct kiln_loader *loader, const char *path,
+                                                struct kiln_error *error)
+{
+    struct request request = {.loader = loader, .name = path, .wanted = {.materials = 1}};
+    return load(&request, error).mesh;
+}
+
+struct kiln_mesh *kiln_mesh_parse_with_materials(const void *bytes, size_t size, const char *name,
+                                                 struct kiln_error *error)
+{
+    struct request request = {.name = name, .wanted = {.materials = 1}};
+    return parse(&request, bytes, size, error).mesh;
 }
 
 struct kiln_skin *kiln_skin_parse(const void *bytes, size_t size, const char *name,

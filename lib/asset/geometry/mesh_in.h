@@ -7,8 +7,10 @@
 #ifndef KILN_ASSET_GEOMETRY_MESH_IN_H
 #define KILN_ASSET_GEOMETRY_MESH_IN_H
 
+#include "asset/geometry/material_in.h"
 #include "asset/geometry/mesh.h"
 #include "asset/geometry/skin_in.h"
+#include "asset/loader/protocol.h"
 
 /* Holds the arrays in their largest sizes. It comes from calloc: pages that are never touched take
  * no memory. */
@@ -17,15 +19,17 @@ struct kiln_mesh_result {
     float vertices[KILN_MAX_MESH_VERTICES][6]; /* position and normal */
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
     struct kiln_skin_result skin;         /* filled for a mesh that moves */
+    struct kiln_looks_result looks;       /* filled if materials were asked for */
     float uvs[KILN_MAX_MESH_VERTICES][2]; /* filled if they were asked for */
     /* what was changed or left out, for the user: a line each, none at the end */
     char notes[KILN_MESSAGE_SIZE];
 };
 
 /* Calls `visit` for each array that crosses the socket, in the order in which it does, with its
- * size by the counts of the result. `uvs` and `moving` say whether those arrays are sent. Both
- * programs use it (mesh_arrays.c), so their orders agree. Returns false as soon as visit does. */
-bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool moving,
+ * size by the counts of the result. The request says which arrays are sent. Both programs use it
+ * (mesh_arrays.c), so their orders agree. Returns false as soon as visit does. */
+bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result,
+                            const struct kiln_decode_request *wanted,
                             bool (*visit)(void *user, void *array, size_t bytes), void *user);
 
 /* Computes a mesh's bounding box, min and max, from the positions of its vertices (mesh.c). */

@@ -55,13 +55,21 @@ enum kiln_mesh_format {
     KILN_MESH_STL,
 };
 
+/* What a file that a mesh names has. */
+enum kiln_companion {
+    KILN_COMPANION_BUFFER,    /* numbers of a glTF file, without which it is not read */
+    KILN_COMPANION_MATERIALS, /* materials of an OBJ file, which is read without them, too */
+};
+
 /* Asks for a file to be decoded. The file's descriptor is sent with it. A video needs one request
  * for all of its frames. */
 struct kiln_decode_request {
     uint32_t format; /* enum kiln_picture_format or kiln_mesh_format; unused for a video */
     uint32_t uvs;    /* of a mesh: texture coordinates are wanted */
     uint32_t moving; /* of a mesh: nodes, bones and clips are wanted */
-    uint32_t raw;    /* of a picture: numbers are neither converted nor turned */
+    /* of a mesh: materials are wanted; texture coordinates then come with them */
+    uint32_t materials;
+    uint32_t raw; /* of a picture: numbers are neither converted nor turned */
     /* of a WebP (KILN_DECODE_WEBP) or GIF (KILN_DECODE_PICTURE): all frames are wanted, and
      * answered like those of a video */
     uint32_t frames;
@@ -114,6 +122,9 @@ struct kiln_decode_answer {
     uint32_t vertices, triangles, morph_targets;           /* of a mesh: counts */
     uint32_t nodes, bones, clips, channels_of_clips, keys; /* of a mesh that moves: counts */
     uint32_t morphs, morph_channels, deltas;               /* of the same */
+    uint32_t materials, textures, texture_bytes;           /* of a mesh with materials: counts */
+    uint32_t has_uvs, has_second_uvs, has_colors; /* of the same: which its vertices have */
+    uint32_t companion; /* enum kiln_companion, of KILN_DECODE_NEEDS_FILE */
 };
 
 /* Answers KILN_DECODE_NEEDS_FILE. The file's descriptor is sent with it if is_open. */

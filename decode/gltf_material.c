@@ -1,0 +1,355 @@
+/* This file reads the materials of glTF files, their textures, and the colours of vertices. Nothing
+ * in it makes the reader fail but vertices that are not there: a material or a texture that the
+ * file describes wrongly is left out, or keeps its default, as a mesh without its materials is
+ * shown. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "gltf.h"
+#include "looks.h"
+
+struct reading {
+    struct gltf *g;
+    struct decode_model *model;
+    uint32_t *of_images; /* the texture of each image of the file, from 1; 0: not yet */
+};
+
+/* ---- numbers --------------------------------------------------------------------------------- */
+
+/* Gets a number between limits; `otherwise` if there is none. */
+static float get_number(const struct gltf *g, uint32_t object, const char *key, float otherwise,
+                        float least, float most)
+{
+    double number = 0.0;
+    if (!json_number(&g->json, json_member(&g->json, object, key), &number))
+        return otherwise;
+    return number > (double)least ? (number < (double)most ? (float)number : most) : least;
+}
+
+/* Gets the numbers of an array from 0 to 1, as far as it has them. */
+static void get_numbers(const struct gltf *g, uint32_t object, const char *key, float *out,
+                        uint32_t count)
+{
+    const uint32_t array = json_member(&g->json, object, key);
+    uint32_t k = 0;
+    for (uint32_t i = json_first(&g->json, array); i != JSON_NONE && k < count;
+         i = json_after(&g->json, array, i), k++) {
+        double number = 0.0;
+        if (json_number(&g->json, i, &number))
+            out[k] = decode_clamp((float)number, 0, 1);
+    }
+}
+
+/* Returns the element of a list that a member names by its number, or JSON_NONE. */
+static uint32_t element_of(const struct gltf *g, uint32_t object, const char *key,
+                           enum gltf_list_name list, uint32_t *number)
+{
+    *number = JSON_NONE;
+    (void)json_index(&g->json, json_member(&g->json, object, key), number);
+    return gltf_element(g, list, *number);
+}
+
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+/* Adds a picture in a data URI or in another file. */
+static uint32_t add_uri(struct reading *r, uint32_t value)
+{
+    struct gltf_bytes data = {.size = 0};
+    struct kiln_error ignored = {0}, *kept = r->g->error;
+    size_t length = 0;
+    uint32_t texture = KILN_NO_TEXTURE;
+    r->g->error = &ignored;
+    char *uri = gltf_copy_uri(r->g, value, &length);
+    if (uri && length >= 5 && strncasecmp(uri, "data:", 5) == 0) {
+        if (gltf_decode_data(r->g, uri, length, &data))
+            texture = decode_add_bytes(r->model, data.bytes, data.size);
+        else
+            decode_note(r->model->notes, "a texture is left out: its data URI is broken");
+    } else if (uri) {
+        length = gltf_decode_percents(uri, length);
+        texture = decode_add_file(r->model, uri, length);
+    }
+    r->g->error = kept;
+    free(uri);
+    return texture;
+}
+
+/* Adds a picture in a buffer view. */
+static uint32_t add_view(struct reading *r, uint32_t number)
+{
+    struct kiln_error reason = {0}, *kept = r->g->error;
+    struct gltf_view view = {.size = 0};
+    r->g->error = &reason;
+    const bool found = gltf_find_view(r->g, number, &view);
+    r->g->error = kept;
+    if (found)
+        return decode_add_bytes(r->model, view.bytes, view.size);
+    decode_note(r->model->notes, "a texture is left out: %.500s", reason.message);
+    return KILN_NO_TEXTURE;
+}
+
+/* Returns the texture of an image of the file. */
+static uint32_t add_image(struct reading *r, uint32_t number)
+{
+    const struct gltf *g = r->g;
+    const uint32_t image = gltf_element(g, GLTF_IMAGES, number);
+    if (image == JSON_NONE)
+        return KILN_NO_TEXTURE;
+    if (r->of_images[number] == 0) {
+        const uint32_t uri = json_member(&g->json, image, "uri");
+        uint32_t view = 0, texture = KILN_NO_TEXTURE;
+        if (uri != JSON_NONE)
+            texture = add_uri(r, uri);
+        else if (element_of(g, image, "bufferView", GLTF_VIEWS, &view) != JSON_NONE)
+            texture = add_view(r, view);
+        r->of_images[number] = texture == KILN_NO_TEXTURE ? UINT32_MAX : texture + 1;
+    }
+    return r->of_images[number] == UINT32_MAX ? KILN_NO_TEXTURE : r->of_images[number] - 1;
+}
+
+/* Returns the picture of a texture of the file: its own or, if it has none that all programs read,
+ * that of an extension. */
+static uint32_t add_texture(struct reading *r, uint32_t texture)
+{
+    static const char *const others[] = {"EXT_texture_webp", "EXT_texture_avif",
+                                         "KHR_texture_basisu", "MSFT_texture_dds"};
+    const struct gltf *g = r->g;
+    uint32_t image = 0;
+    uint32_t found = element_of(g, texture, "source", GLTF_IMAGES, &image);
+    for (size_t i = 0; found == JSON_NONE && i < sizeof others / sizeof *others; i++)
+        found = element_of(g, gltf_extension(g, texture, others[i]), "source", GLTF_IMAGES, &image);
+    return add_image(r, image);
+}
+
+/* ---- maps ------------------------------------------------------------------------------------ */
+
+enum { NEAREST = 9728, CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 }; /* numbers of OpenGL */
+
+static uint32_t wrap_of(const struct gltf *g, uint32_t sampler, const char *key)
+{
+    uint32_t number = 0;
+    if (!json_index(&g->json, json_member(&g->json, sampler, key), &number))
+        return KILN_WRAP_REPEAT;
+    return number == CLAMP_TO_EDGE     ? KILN_WRAP_CLAMP
+           : number == MIRRORED_REPEAT ? KILN_WRAP_MIRROR
+                                       : KILN_WRAP_REPEAT;
+}
+
+static void read_sampler(const struct gltf *g, uint32_t texture, struct kiln_material_map *map)
+{
+    uint32_t number = 0, filter = 0;
+    const uint32_t sampler = element_of(g, texture, "sampler", GLTF_SAMPLERS, &number);
+    map->wrap[0] = wrap_of(g, sampler, "wrapS");
+    map->wrap[1] = wrap_of(g, sampler, "wrapT");
+    map->is_nearest = json_index(&g->json, json_member(&g->json, sampler, "magFilter"), &filter) &&
+                      filter == NEAREST;
+}
+
+static void read_transform(const struct gltf *g, uint32_t info, struct kiln_material_map *map)
+{
+    double rows[2][3];
+    if (!gltf_get_transform(g, info, rows))
+        return;
+    for (int i = 0; i < 6; i++) {
+        const double most = (double)KILN_MAX_MATERIAL_NUMBER, number = rows[i / 3][i % 3];
+        map->rows[i / 3][i % 3] = (float)(number > -most ? (number < most ? number : most) : -most);
+    }
+}
+
+/* Reads how a material uses a texture. info: what the material says of it. */
+static void read_map(struct reading *r, uint32_t info, struct kiln_material_map *map)
+{
+    struct gltf *g = r->g;
+    uint32_t number = 0, set = 0;
+    const uint32_t texture = element_of(g, info, "index", GLTF_TEXTURES, &number);
+    if (texture == JSON_NONE)
+        return;
+    const uint32_t transform = gltf_extension(g, info, "KHR_texture_transform");
+    if (!json_index(&g->json, json_member(&g->json, transform, "texCoord"), &set))
+        (void)json_index(&g->json, json_member(&g->json, info, "texCoord"), &set);
+    if (set >= KILN_UV_SETS) {
+        decode_note(r->model->notes,
+                    "a texture is left out that is laid by set %u of texture coordinates; allowed "
+                    "are 0 to %d",
+                    set, KILN_UV_SETS - 1);
+        return;
+    }
+    map->texture = add_texture(r, texture);
+    map->uv_set = set;
+    map->strength =
+        get_number(g, info, "scale", 1, -KILN_MAX_MATERIAL_NUMBER, KILN_MAX_MATERIAL_NUMBER);
+    read_sampler(g, texture, map);
+    read_transform(g, info, map);
+}
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+static void read_metal(struct reading *r, uint32_t looks, struct kiln_material *out)
+{
+    const struct gltf *g = r->g;
+    float color[4] = {1, 1, 1, 1};
+    get_numbers(g, looks, "baseColorFactor", color, 4);
+    memcpy(out->color, color, sizeof out->color);
+    out->alpha = color[3];
+    out->metalness = get_number(g, looks, "metallicFactor", 1, 0, 1);
+    out->roughness = get_number(g, looks, "roughnessFactor", 1, 0, 1);
+    read_map(r, json_member(&g->json, looks, "baseColorTexture"), &out->maps[KILN_USE_COLOR]);
+    const uint32_t both = json_member(&g->json, looks, "metallicRoughnessTexture");
+    read_map(r, both, &out->maps[KILN_USE_ROUGHNESS]);
+    read_map(r, both, &out->maps[KILN_USE_METALNESS]);
+    out->maps[KILN_USE_ROUGHNESS].channel = KILN_TEXEL_GREEN;
+    out->maps[KILN_USE_METALNESS].channel = KILN_TEXEL_BLUE;
+}
+
+/* Returns how bright a colour looks, as the conversion of Khronos weighs it. */
+static float brightness_of(const float c[3])
+{
+    return sqrtf(0.299f * c[0] * c[0] + 0.587f * c[1] * c[1] + 0.114f * c[2] * c[2]);
+}
+
+static float strongest_of(const float c[3])
+{
+    const float two = c[0] > c[1] ? c[0] : c[1];
+    return two > c[2] ? two : c[2];
+}
+
+static const float DIELECTRIC = 0.04f; /* what a surface that is no metal reflects */
+
+/* Finds the metalness of a surface that reflects `diffuse` and `specular` light. rest: the part of
+ * light that is not reflected as specular light. */
+static float metalness_of(float diffuse, float specular, float rest)
+{
+    if (specular < DIELECTRIC)
+        return 0;
+    const float b = diffuse * rest / (1 - DIELECTRIC) + specular - 2 * DIELECTRIC;
+    const float c = DIELECTRIC - specular;
+    const float root = b * b - 4 * DIELECTRIC * c;
+    return decode_clamp((sqrtf(root > 0 ? root : 0) - b) / (2 * DIELECTRIC), 0, 1);
+}
+
+/* Reads a material of KHR_materials_pbrSpecularGlossiness. Its numbers are converted as Khronos'
+ * example does (convert-between-workflows, in the extension's folder); its textures cannot be, so
+ * that of diffuse light is taken for the base colour, and glossiness for the inverse of roughness.
+ */
+static void read_gloss(struct reading *r, uint32_t gloss, struct kiln_material *out)
+{
+    const struct gltf *g = r->g;
+    const float least = 1e-6f;
+    float diffuse[4] = {1, 1, 1, 1}, specular[3] = {1, 1, 1};
+    get_numbers(g, gloss, "diffuseFactor", diffuse, 4);
+    get_numbers(g, gloss, "specularFactor", specular, 3);
+    const float rest = 1 - strongest_of(specular);
+    const float metal = metalness_of(brightness_of(diffuse), brightness_of(specular), rest);
+    const float no_metal = 1 - metal > least ? 1 - metal : least;
+    for (int c = 0; c < 3; c++) {
+        const float from_diffuse = diffuse[c] * rest / (1 - DIELECTRIC) / no_metal;
+        const float from_specular =
+            (specular[c] - DIELECTRIC * (1 - metal)) / (metal > least ? metal : least);
+        out->color[c] =
+            decode_clamp(from_diffuse + (from_specular - from_diffuse) * metal * metal, 0, 1);
+    }
+    out->alpha = diffuse[3];
+    out->metalness = metal;
+    out->roughness = 1 - get_number(g, gloss, "glossinessFactor", 1, 0, 1);
+    read_map(r, json_member(&g->json, gloss, "diffuseTexture"), &out->maps[KILN_USE_COLOR]);
+    struct kiln_material_map *map = &out->maps[KILN_USE_ROUGHNESS];
+    read_map(r, json_member(&g->json, gloss, "specularGlossinessTexture"), map);
+    map->channel = KILN_TEXEL_ALPHA;
+    map->is_inverse = map->texture != KILN_NO_TEXTURE;
+    if (map->is_inverse)
+        out->roughness = 1; /* a product of glossinesses is none of roughnesses */
+}
+
+static void read_emission(struct reading *r, uint32_t material, struct kiln_material *out)
+{
+    const struct gltf *g = r->g;
+    const uint32_t extension = gltf_extension(g, material, "KHR_materials_emissive_strength");
+    const float strength = get_number(g, extension, "emissiveStrength", 1, 0, KILN_MAX_EMISSION);
+    get_numbers(g, material, "emissiveFactor", out->emission, 3);
+    for (int c = 0; c < 3; c++)
+        out->emission[c] *= strength;
+    read_map(r, json_member(&g->json, material, "emissiveTexture"), &out->maps[KILN_USE_EMISSION]);
+}
+
+static void read_material(struct reading *r, uint32_t material, struct kiln_material *out)
+{
+    const struct gltf *g = r->g;
+    const struct json *json = &g->json;
+    char name[4 * KILN_MATERIAL_NAME_SIZE] = "";
+    (void)json_text(json, json_member(json, material, "name"), name, sizeof name);
+    decode_copy_name(name, strlen(name), out->name);
+    const uint32_t gloss = gltf_extension(g, material, "KHR_materials_pbrSpecularGlossiness");
+    if (gloss != JSON_NONE)
+        read_gloss(r, gloss, out);
+    else
+        read_metal(r, json_member(json, material, "pbrMetallicRoughness"), out);
+    read_map(r, json_member(json, material, "normalTexture"), &out->maps[KILN_USE_NORMAL]);
+    read_emission(r, material, out);
+    const uint32_t mode = json_member(json, material, "alphaMode");
+    out->alpha_mode = json_is(json, mode, "MASK")    ? KILN_ALPHA_MASK
+                      : json_is(json, mode, "BLEND") ? KILN_ALPHA_BLEND
+                                                     : KILN_ALPHA_OPAQUE;
+    out->cutoff = get_number(g, material, "alphaCutoff", 0.5f, 0, KILN_MAX_MATERIAL_NUMBER);
+    out->is_two_sided = json_is_true(json, json_member(json, material, "doubleSided"));
+    out->is_unlit = gltf_extension(g, material, "KHR_materials_unlit") != JSON_NONE;
+}
+
+bool gltf_put_materials(struct gltf *g, struct decode_model *model)
+{
+    uint32_t numbers[KILN_MAX_MATERIALS];
+    struct reading r = {.g = g, .model = model};
+    if (!model->looks)
+        return true;
+    if (!decode_assign_looks(model, g->lists[GLTF_MATERIALS].count, numbers, g->error))
+        return false;
+    r.of_images = calloc((size_t)g->lists[GLTF_IMAGES].count + 1, sizeof *r.of_images);
+    if (!r.of_images)
+        return decode_out_of_memory(g->error);
+    for (uint32_t i = 0; i < model->looks->material_count; i++)
+        read_material(&r, g->lists[GLTF_MATERIALS].values[numbers[i]], &model->looks->materials[i]);
+    free(r.of_images);
+    return true;
+}
+
+/* ---- vertices -------------------------------------------------------------------------------- */
+
+/* Gets the accessor of an attribute and the type of its elements. False: there is none. */
+static bool find_attribute(const struct gltf *g, uint32_t attributes, const char *key,
+                           uint32_t *accessor, uint32_t *type)
+{
+    const uint32_t json = element_of(g, attributes, key, GLTF_ACCESSORS, accessor);
+    *type = json_member(&g->json, json, "type");
+    return json != JSON_NONE;
+}
+
+bool gltf_read_colors(struct gltf *g, uint32_t attributes, struct gltf_range range,
+                      struct gltf_primitive *primitive)
+{
+    uint32_t accessor = 0, type = 0;
+    if (!g->wanted->materials)
+        return true;
+    if (find_attribute(g, attributes, "TEXCOORD_1", &accessor, &type)) {
+        primitive->second_uvs = (float(*)[2])gltf_read(g, accessor, "VEC2", range);
+        if (!primitive->second_uvs)
+            return false;
+    }
+    if (!find_attribute(g, attributes, "COLOR_0", &accessor, &type))
+        return true;
+    const uint32_t width = json_is(&g->json, type, "VEC3") ? 3 : 4;
+    float *colors = gltf_read(g, accessor, width == 3 ? "VEC3" : "VEC4", range);
+    if (!colors)
+        return false;
+    primitive->colors = malloc(((size_t)range.count + 1) * sizeof *primitive->colors);
+    if (!primitive->colors) {
+        free(colors);
+        return decode_out_of_memory(g->error);
+    }
+    for (size_t i = 0; i < range.count; i++) {
+        for (uint32_t c = 0; c < 4; c++)
+            primitive->colors[i][c] = c < width ? decode_clamp(colors[width * i + c], 0, 1) : 1;
+    }
+    free(colors);
+    return true;
+}
