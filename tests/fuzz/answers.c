@@ -72,6 +72,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         check_mesh(mesh);
     fuzz_taken = fuzz_taken || mesh;
     kiln_mesh_destroy(&mesh);
+    mesh = kiln_mesh_parse_with_materials("v", 1, "fuzz.obj", &error);
+    if (mesh)
+        check_looks(mesh);
+    fuzz_taken = fuzz_taken || mesh;
+    kiln_mesh_destroy(&mesh);
     struct kiln_skin *skin = kiln_skin_parse("{", 1, "fuzz.gltf", &error);
     if (skin)
         check_skin(skin);

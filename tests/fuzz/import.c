@@ -23,17 +23,41 @@ static struct kiln_mesh_result *empty_result(void)
     result->vertex_count = result->triangle_count = 0;
     skin->node_count = skin->bone_count = skin->clip_count = skin->channel_count = 0;
     skin->key_count = skin->morph_count = skin->morph_channel_count = skin->delta_count = 0;
+    struct kiln_looks_result *looks = &result->looks;
+    free(looks->bytes);
+    looks->bytes = NULL;
+    looks->material_count = looks->texture_count = looks->byte_count = 0;
+    looks->has_uvs = looks->has_second_uvs = looks->has_colors = false;
     result->notes[0] = '\0';
     return result;
 }
 
-static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, bool uvs,
-                   bool moving)
+/* Gives an OBJ its own text as that of every file of materials that it names. */
+static unsigned char *open_itself(void *user, enum kiln_companion kind, const char *name,
+                                  size_t *size)
+{
+    const struct decode_mesh *mesh = user;
+    unsigned char *bytes =
+        kind == KILN_COMPANION_MATERIALS && *name ? malloc(mesh->size + 1) : NULL;
+    if (bytes)
+        memcpy(bytes, mesh->bytes, mesh->size);
+    *size = mesh->size;
+    return bytes;
+}
+
+enum way { PLAIN, WITH_UVS, WITH_MATERIALS, MOVING };
+
+static void import(const uint8_t *data, size_t size, enum kiln_mesh_format format, enum way way)
 {
     struct kiln_error error = {0};
-    const struct decode_mesh mesh = {
-
-        .format = format, .uvs = uvs, .moving = moving, .bytes = data, .size = size};
+    struct decode_mesh mesh = {.format = format,
+                               .uvs = way == WITH_UVS,
+                               .materials = way == WITH_MATERIALS,
+                               .moving = way == MOVING,
+                               .bytes = data,
+                               .size = size,
+                               .open = open_itself};
+    mesh.user = &mesh;
     struct kiln_mesh_result *result = empty_result();
     bool needs_other = false;
     const bool made = decode_mesh(&mesh, result, &needs_other, &error);
@@ -49,17 +73,26 @@ static void import(const uint8_t *data, size_t size, enum kiln_mesh_format forma
                 result->skin.key_count <= KILN_MAX_CLIP_KEYS &&
                 result->skin.morph_count <= KILN_MAX_SKIN_MORPHS &&
                 result->skin.morph_channel_count <= KILN_MAX_CLIP_MORPHS &&
-                result->skin.delta_count <= KILN_MAX_SKIN_DELTAS,
+                result->skin.delta_count <= KILN_MAX_SKIN_DELTAS &&
+                result->looks.material_count <= KILN_MAX_MATERIALS &&
+                result->looks.texture_count <= KILN_MAX_TEXTURES &&
+                result->looks.byte_count <= KILN_MAX_TEXTURE_BYTES,
             "a mesh beyond the limits");
+    if (made && mesh.materials) { /* what kiln takes of it has all numbers within their ranges */
+        struct kiln_mesh_looks *looks = kiln_looks_take("fuzz", result, &error);
+        require(looks != NULL, error.message);
+        kiln_mesh_looks_destroy(&looks);
+    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_taken = false;
     const enum kiln_mesh_format format = guess_format(data, size);
-    import(data, size, format, false, false);
-    import(data, size, format, true, false);
+    import(data, size, format, PLAIN);
+    import(data, size, format, WITH_UVS);
+    import(data, size, format, WITH_MATERIALS);
     if (format == KILN_MESH_GLTF || format == KILN_MESH_GLB)
-        import(data, size, format, false, true);
+        import(data, size, format, MOVING);
     return 0;
 }

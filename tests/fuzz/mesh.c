@@ -1,8 +1,8 @@
-/* Fuzzes the mesh loader. For any bytes, kiln must load a mesh or report an error, and for glTF
- * also a skinned mesh or an error. The numbers of vertices and triangles must stay within
- * KILN_MAX_MESH_*, and every vertex must be finite, also in every pose of the animation clip. If
- * this fails, a damaged mesh crashes kiln. The importer runs in a process of its own,
- * kiln-decode, and may crash there; kiln must report that as an error. */
+/* Fuzzes the mesh loader. For any bytes, kiln must load a mesh or report an error, without and with
+ * its materials, and for glTF also a skinned mesh or an error. The numbers of vertices and
+ * triangles must stay within KILN_MAX_MESH_*, and every vertex must be finite, also in every pose
+ * of the animation clip. If this fails, a damaged mesh crashes kiln. The importer runs in a process
+ * of its own, kiln-decode, and may crash there; kiln must report that as an error. */
 #include "fuzz.h"
 #include "mesh_check.h"
 #include "mesh_format.h"
@@ -24,6 +24,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     else
         require(error.code != KILN_OK && *error.message, "an error without a message");
     kiln_mesh_destroy(&mesh);
+    struct kiln_mesh *painted = kiln_mesh_parse_with_materials(data, size, name, &error);
+    if (painted)
+        check_looks(painted);
+    kiln_mesh_destroy(&painted);
     const bool may_move = format == KILN_MESH_GLTF || format == KILN_MESH_GLB;
     struct kiln_skin *skin = may_move ? kiln_skin_parse(data, size, name, &error) : NULL;
     if (skin)

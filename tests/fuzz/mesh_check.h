@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "asset/geometry/material.h"
 #include "asset/geometry/skin.h"
 #include "image_check.h"
 
@@ -21,6 +22,37 @@ static inline void check_mesh(const struct kiln_mesh *mesh)
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         for (int c = 0; c < 3; c++)
             require(mesh->triangles[i][c] < mesh->vertex_count, "a corner without a vertex");
+    }
+}
+
+/* Checks a mesh that was loaded with its materials. */
+static inline void check_looks(const struct kiln_mesh *mesh)
+{
+    const struct kiln_mesh_looks *looks = mesh->looks;
+    check_mesh(mesh);
+    require(looks != NULL, "a mesh without its materials");
+    require(looks->material_count <= KILN_MAX_MATERIALS &&
+                looks->texture_count <= KILN_MAX_TEXTURES,
+            "materials beyond the limits");
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        require(looks->of_triangles[i] == KILN_NO_MATERIAL ||
+                    looks->of_triangles[i] < looks->material_count,
+                "a triangle without its material");
+    for (uint32_t i = 0; i < looks->material_count; i++) {
+        for (int k = 0; k < KILN_MATERIAL_USES; k++)
+            require(looks->materials[i].maps[k].texture == KILN_NO_TEXTURE ||
+                        looks->materials[i].maps[k].texture < looks->texture_count,
+                    "a map without its texture");
+    }
+    for (uint32_t i = 0; i < looks->texture_count; i++)
+        require(kiln_path_stays_below(looks->textures[i].file) &&
+                    looks->textures[i].first_byte <= looks->byte_count &&
+                    looks->textures[i].byte_count <=
+                        looks->byte_count - looks->textures[i].first_byte,
+                "a texture that lies elsewhere");
+    for (uint32_t i = 0; looks->colors && i < mesh->vertex_count; i++) {
+        for (int c = 0; c < 4; c++)
+            require(looks->colors[i][c] >= 0 && looks->colors[i][c] <= 1, "a colour beyond 1");
     }
 }
 

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/geometry/material.h"
-#include "asset/geometry/mesh.h"
+#include "asset/geometry/mesh_in.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
 #include "support/folders.h"
@@ -228,7 +227,7 @@ static struct kiln_material material_of(const char *lines)
 
 static void expect_near(float found, double expected)
 {
-    if (!(fabs((double)found - expected) <= 1e-6))
+    if (!(fabs((double)found - expected) <= 1e-6 * fmax(1, expected)))
         fail_msg("%.9g is not %.9g", (double)found, expected);
 }
 
@@ -383,8 +382,8 @@ static struct kiln_material gloss_of(const char *members)
     return material;
 }
 
-/* What is expected was computed by Khronos' convert-between-workflows/js/babylon.pbrUtilities.js.
- */
+/* A surface that reflects 4 % is no metal and has its diffuse colour; one without diffuse light is
+ * a metal and has its specular colour. */
 static void glossiness_is_converted(void **state)
 {
     (void)state;
@@ -438,6 +437,95 @@ static void faults_of_gltf_are_no_errors(void **state)
     }
 }
 
+/* ---- what a process sends that a file has taken over ----------------------------------------- */
+
+/* Makes a triangle with a material and two textures. */
+static void make_sound(struct kiln_mesh_result *result, unsigned char *bytes)
+{
+    struct kiln_looks_result *looks = &result->looks;
+    result->vertex_count = 3;
+    result->triangle_count = 1;
+    looks->material_count = 1;
+    looks->texture_count = 2;
+    looks->byte_count = 8;
+    looks->bytes = bytes;
+    looks->has_uvs = looks->has_second_uvs = looks->has_colors = true;
+    memset(looks->colors, 0, 3 * sizeof *looks->colors);
+    memset(looks->second_uvs, 0, 3 * sizeof *looks->second_uvs);
+    memset(result->uvs, 0, 3 * sizeof *result->uvs);
+    looks->materials[0] = kiln_material_default();
+    looks->materials[0].maps[KILN_USE_COLOR].texture = 1;
+    looks->of_triangles[0] = 0;
+    looks->textures[0] = (struct kiln_texture){.first_byte = 4, .byte_count = 4};
+    looks->textures[1] = (struct kiln_texture){.file = "dir/a.png"};
+}
+
+static void expect_taken(const struct kiln_mesh_result *result, bool taken, int line)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh_looks *looks = kiln_looks_take("a.obj", result, &error);
+    if ((looks != NULL) != taken)
+        fail_msg("line %d: %s", line, taken ? error.message : "it was taken");
+    if (!taken)
+        expect_error(&error, KILN_INVALID_INPUT,
+                     "a.obj: the mesh is broken: the importer returned inconsistent materials");
+    kiln_mesh_looks_destroy(&looks);
+}
+
+static void wrong_materials_are_refused(void **state)
+{
+    (void)state;
+    unsigned char bytes[8] = {0};
+    struct kiln_mesh_result *result = calloc(1, sizeof *result);
+    assert_non_null(result);
+    struct kiln_looks_result *looks = &result->looks;
+    struct kiln_material *m = looks->materials;
+    struct kiln_material_map *map = &m->maps[KILN_USE_NORMAL];
+    struct kiln_texture *texture = looks->textures;
+    make_sound(result, bytes);
+    expect_taken(result, true, __LINE__);
+#define REFUSED(assignment)                                                                        \
+    do {                                                                                           \
+        make_sound(result, bytes);                                                                 \
+        assignment;                                                                                \
+        expect_taken(result, false, __LINE__);                                                     \
+    } while (0)
+    REFUSED(memset(m->name, 'a', sizeof m->name));
+    REFUSED(m->color[2] = NAN);
+    REFUSED(m->color[0] = 1.5f);
+    REFUSED(m->alpha = -0.5f);
+    REFUSED(m->roughness = INFINITY);
+    REFUSED(m->metalness = -1);
+    REFUSED(m->emission[1] = 1e7f);
+    REFUSED(m->cutoff = NAN);
+    REFUSED(m->alpha_mode = 3);
+    REFUSED(m->is_two_sided = 2);
+    REFUSED(m->is_unlit = 2);
+    REFUSED(map->texture = 2);
+    REFUSED(map->uv_set = 2);
+    REFUSED(map->channel = KILN_TEXTURE_CHANNELS);
+    REFUSED(map->wrap[1] = KILN_TEXTURE_WRAPS);
+    REFUSED(map->is_nearest = 2);
+    REFUSED(map->is_inverse = 2);
+    REFUSED(map->strength = INFINITY);
+    REFUSED(map->rows[1][2] = NAN);
+    REFUSED(texture[0].first_byte = 5);
+    REFUSED(texture[0].first_byte = UINT32_MAX);
+    REFUSED(texture[0].byte_count = 0);
+    REFUSED(texture[1].byte_count = 1);
+    REFUSED(texture[1].is_missing = 2);
+    REFUSED(memset(texture[1].file, 'a', sizeof texture[1].file));
+    REFUSED(strcpy(texture[1].file, "../a.png"));
+    REFUSED(strcpy(texture[1].file, "/a.png"));
+    REFUSED(strcpy(texture[1].file, "a/../../b.png"));
+    REFUSED(looks->of_triangles[0] = 1);
+    REFUSED(looks->colors[2][3] = 2);
+    REFUSED(looks->second_uvs[2][1] = NAN);
+    REFUSED(result->uvs[2][1] = INFINITY);
+#undef REFUSED
+    free(result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -453,6 +541,7 @@ int main(void)
                                         test_leave_folder),
         cmocka_unit_test(glossiness_is_converted),
         cmocka_unit_test(faults_of_gltf_are_no_errors),
+        cmocka_unit_test(wrong_materials_are_refused),
     };
     return cmocka_run_group_tests_name("materials", tests, NULL, NULL);
 }

@@ -119,11 +119,12 @@ struct kiln_decode_answer {
     /* of a picture: the members of struct kiln_asset_image with these names */
     uint32_t width, height, channels, type, srgb, premultiplied, pages;
     uint32_t data;                                         /* of a layer: it holds no light */
-    uint32_t vertices, triangles, morph_targets;           /* of a mesh: counts */
+    uint32_t vertices, triangles;                          /* of a mesh: counts */
     uint32_t nodes, bones, clips, channels_of_clips, keys; /* of a mesh that moves: counts */
     uint32_t morphs, morph_channels, deltas;               /* of the same */
     uint32_t materials, textures, texture_bytes;           /* of a mesh with materials: counts */
     uint32_t has_uvs, has_second_uvs, has_colors; /* of the same: which its vertices have */
+    uint32_t morph_targets;                       /* of a mesh: a count */
     uint32_t companion; /* enum kiln_companion, of KILN_DECODE_NEEDS_FILE */
 };
 
