@@ -26,16 +26,15 @@ bool decode_draco_is_ready(void)
 }
 
 /* What is asked for of the attributes of glTF. */
-enum { POSITION, NORMAL, TEXCOORD, JOINTS, WEIGHTS, ATTRIBUTES };
+enum { POSITION, NORMAL, TEXCOORD, JOINTS, WEIGHTS, COLOR, SECOND_TEXCOORD, ATTRIBUTES };
 
 static const struct {
     const char *key;
     uint32_t components;
-} wanted[ATTRIBUTES] = {[POSITION] = {"POSITION", 3},
-                        [NORMAL] = {"NORMAL", 3},
-                        [TEXCOORD] = {"TEXCOORD_0", 2},
-                        [JOINTS] = {"JOINTS_0", 4},
-                        [WEIGHTS] = {"WEIGHTS_0", 4}};
+} wanted[ATTRIBUTES] = {[POSITION] = {"POSITION", 3},         [NORMAL] = {"NORMAL", 3},
+                        [TEXCOORD] = {"TEXCOORD_0", 2},       [JOINTS] = {"JOINTS_0", 4},
+                        [WEIGHTS] = {"WEIGHTS_0", 4},         [COLOR] = {"COLOR_0", 4}, /* or 3 */
+                        [SECOND_TEXCOORD] = {"TEXCOORD_1", 2}};
 
 /* Returns what the integers of an accessor are divided by; 0: they are not. */
 static double most_of(const struct gltf *g, uint32_t attributes, const char *key)
@@ -101,13 +100,34 @@ static bool take(struct gltf *g, struct kiln_draco_request *request, bool weight
     primitive->normals = (float(*)[3])of[NORMAL].values;
     primitive->uvs = (float(*)[2])of[TEXCOORD].values;
     primitive->triangles = request->triangles;
+    primitive->second_uvs = (float(*)[2])of[SECOND_TEXCOORD].values;
     of[POSITION].values = of[NORMAL].values = of[TEXCOORD].values = NULL;
+    of[SECOND_TEXCOORD].values = NULL;
     request->triangles = NULL;
     if (!primitive->positions)
         return GLTF_SET(g, "triangles that Draco compresses have no positions");
     primitive->triangle_count = request->triangle_count;
+    if (of[COLOR].values && !gltf_put_colors(g, of[COLOR].values, of[COLOR].components, primitive))
+        return false;
     return !weights || !of[JOINTS].values || !of[WEIGHTS].values ||
            put_weights(g, of[JOINTS].values, of[WEIGHTS].values, primitive);
+}
+
+/* Returns whether an attribute of `wanted` is to be read. */
+static bool is_wanted(const struct gltf *g, int attribute, bool uvs, bool weights)
+{
+    switch (attribute) {
+    case TEXCOORD:
+        return uvs;
+    case JOINTS:
+    case WEIGHTS:
+        return weights;
+    case COLOR:
+    case SECOND_TEXCOORD:
+        return g->wanted->materials;
+    default:
+        return true;
+    }
 }
 
 bool gltf_read_draco(struct gltf *g, uint32_t json, uint32_t extension, bool uvs, bool weights,
@@ -128,10 +148,10 @@ bool gltf_read_draco(struct gltf *g, uint32_t json, uint32_t extension, bool uvs
         of[i] = (struct kiln_draco_attribute){.id = UINT32_MAX,
                                               .components = wanted[i].components,
                                               .most = most_of(g, attributes, wanted[i].key)};
-        const bool is_wanted = i == TEXCOORD ? uvs : i == JOINTS || i == WEIGHTS ? weights : true;
-        if (is_wanted)
+        if (is_wanted(g, i, uvs, weights))
             (void)json_index(&g->json, json_member(&g->json, ids, wanted[i].key), &of[i].id);
     }
+    of[COLOR].components = gltf_color_width(g, attributes);
     struct kiln_draco_request request = {.bytes = view.bytes,
                                          .size = view.size,
                                          .most_points = KILN_MAX_MESH_VERTICES,

@@ -208,6 +208,13 @@ bool gltf_put_materials(struct gltf *g, struct decode_model *model);
 bool gltf_read_colors(struct gltf *g, uint32_t attributes, struct gltf_range range,
                       struct gltf_primitive *primitive);
 
+/* Returns how many numbers the colour of a vertex has: 3 without alpha, else 4. */
+uint32_t gltf_color_width(const struct gltf *g, uint32_t attributes);
+
+/* Gives a primitive colours of its vertices, each of `width` numbers. */
+bool gltf_put_colors(struct gltf *g, const float *colors, uint32_t width,
+                     struct gltf_primitive *primitive);
+
 /* ---- gltf_skin.c ----------------------------------------------------------------------------- */
 
 /* A bone takes vertices to the space of a node. */

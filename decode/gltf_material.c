@@ -315,41 +315,43 @@ bool gltf_put_materials(struct gltf *g, struct decode_model *model)
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-/* Gets the accessor of an attribute and the type of its elements. False: there is none. */
-static bool find_attribute(const struct gltf *g, uint32_t attributes, const char *key,
-                           uint32_t *accessor, uint32_t *type)
+uint32_t gltf_color_width(const struct gltf *g, uint32_t attributes)
 {
-    const uint32_t json = element_of(g, attributes, key, GLTF_ACCESSORS, accessor);
-    *type = json_member(&g->json, json, "type");
-    return json != JSON_NONE;
+    uint32_t number = 0;
+    const uint32_t accessor = element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &number);
+    return json_is(&g->json, json_member(&g->json, accessor, "type"), "VEC3") ? 3 : 4;
+}
+
+bool gltf_put_colors(struct gltf *g, const float *colors, uint32_t width,
+                     struct gltf_primitive *primitive)
+{
+    const size_t count = primitive->vertex_count;
+    primitive->colors = malloc((count + 1) * sizeof *primitive->colors);
+    if (!primitive->colors)
+        return decode_out_of_memory(g->error);
+    for (size_t i = 0; i < count; i++) {
+        for (uint32_t c = 0; c < 4; c++)
+            primitive->colors[i][c] = c < width ? decode_clamp(colors[width * i + c], 0, 1) : 1;
+    }
+    return true;
 }
 
 bool gltf_read_colors(struct gltf *g, uint32_t attributes, struct gltf_range range,
                       struct gltf_primitive *primitive)
 {
-    uint32_t accessor = 0, type = 0;
+    uint32_t accessor = 0;
     if (!g->wanted->materials)
         return true;
-    if (find_attribute(g, attributes, "TEXCOORD_1", &accessor, &type)) {
+    if (element_of(g, attributes, "TEXCOORD_1", GLTF_ACCESSORS, &accessor) != JSON_NONE) {
         primitive->second_uvs = (float(*)[2])gltf_read(g, accessor, "VEC2", range);
         if (!primitive->second_uvs)
             return false;
     }
-    if (!find_attribute(g, attributes, "COLOR_0", &accessor, &type))
+    if (element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &accessor) == JSON_NONE)
         return true;
-    const uint32_t width = json_is(&g->json, type, "VEC3") ? 3 : 4;
+    const uint32_t width = gltf_color_width(g, attributes);
     float *colors = gltf_read(g, accessor, width == 3 ? "VEC3" : "VEC4", range);
-    if (!colors)
-        return false;
-    primitive->colors = malloc(((size_t)range.count + 1) * sizeof *primitive->colors);
-    if (!primitive->colors) {
-        free(colors);
-        return decode_out_of_memory(g->error);
-    }
-    for (size_t i = 0; i < range.count; i++) {
-        for (uint32_t c = 0; c < 4; c++)
-            primitive->colors[i][c] = c < width ? decode_clamp(colors[width * i + c], 0, 1) : 1;
-    }
+    const bool ok = colors && gltf_put_colors(g, colors, width, primitive);
     free(colors);
-    return true;
+    return ok;
 }

@@ -119,6 +119,12 @@ static void expect_words(const char *found, const char *expected, double most, c
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
+static void expect_near(float found, double expected)
+{
+    if (!(fabs((double)found - expected) <= 1e-6 * fmax(1, expected)))
+        fail_msg("%.9g is not %.9g", (double)found, expected);
+}
+
 static struct kiln_mesh *load(const char *path)
 {
     struct kiln_error error = {0};
@@ -173,6 +179,26 @@ static void gltf_says_channels_and_sets(void **state)
     kiln_mesh_destroy(&mesh);
 }
 
+/* Draco's streams have colours and both sets of texture coordinates, too (make_draco.mjs). */
+static void draco_has_colors(void **state)
+{
+    static const uint8_t colors[3][3] = {{255, 51, 0}, {0, 102, 255}, {204, 0, 153}};
+    static const float uvs[3][4] = {{0, 0, 0.5f, 0}, {1, 0, 0, 0.25f}, {0, 1, 0.125f, 1}};
+    (void)state;
+    struct kiln_mesh *mesh = load(FOLDER "draco.glb");
+    assert_int_equal(mesh->vertex_count, 3);
+    assert_int_equal(mesh->looks->material_count, 0);
+    assert_int_equal(mesh->looks->of_triangles[0], KILN_NO_MATERIAL);
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t vertex = mesh->triangles[0][i];
+        for (int c = 0; c < 4; c++)
+            expect_near(mesh->looks->colors[vertex][c], c < 3 ? colors[i][c] / 255.0 : 1);
+        assert_memory_equal(mesh->uvs[vertex], uvs[i], sizeof *mesh->uvs);
+        assert_memory_equal(mesh->looks->second_uvs[vertex], uvs[i] + 2, sizeof *mesh->uvs);
+    }
+    kiln_mesh_destroy(&mesh);
+}
+
 /* A mesh is the same with its materials, but for vertices that are not joined any more, and its
  * hash is that of its own files. */
 static void materials_change_no_mesh(void **state)
@@ -223,12 +249,6 @@ static struct kiln_material material_of(const char *lines)
     const struct kiln_material material = mesh->looks->materials[0];
     kiln_mesh_destroy(&mesh);
     return material;
-}
-
-static void expect_near(float found, double expected)
-{
-    if (!(fabs((double)found - expected) <= 1e-6 * fmax(1, expected)))
-        fail_msg("%.9g is not %.9g", (double)found, expected);
 }
 
 static void values_of_mtl_are_those_of_its_words(void **state)
@@ -531,6 +551,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_are_read_as_by_three_js),
         cmocka_unit_test(gltf_says_channels_and_sets),
+        cmocka_unit_test(draco_has_colors),
         cmocka_unit_test(materials_change_no_mesh),
         cmocka_unit_test_setup_teardown(values_of_mtl_are_those_of_its_words, test_enter_folder,
                                         test_leave_folder),
