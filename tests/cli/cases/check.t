@@ -96,3 +96,55 @@ $ first=$(kiln check --hash scenes/leaves.yaml --set systems.leaves.look.mesh.fi
 > sed -i 's/v 0 1 0/v 0 2 0/' scenes/leaf.obj
 > [ "$first" != "$(kiln check --hash scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj)" ] && echo another
 1|another
+
+What a mesh is: a closed one.
+
+$ printf '%s\n' 'kiln: 1' 'backdrop: {objects: [{mesh: {file: box.obj}}]}' 'systems: {a: {emit: {rate: 1, life: 1 s}}}' >scenes/box.yaml
+> { printf 'v %s\n' {0,2}' '{0,1}' '{0,3}; printf 'f %s\n' '1 2 4 3' '5 7 8 6' '1 5 6 2' '3 4 8 7' '1 3 7 5' '2 6 8 4'; } >scenes/box.obj
+> kiln check scenes/box.yaml | grep '^#'
+1|# mesh box.obj: OBJ, 12 triangles, 24 vertices, from 0 0 0 to 2 1 3
+1|#   closed, its thinnest part 1
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about 206 MiB
+
+Open ones: a hole, and a triangle that faces the other way.
+
+$ sed -i '$d' scenes/box.obj; kiln check scenes/box.yaml | grep -A1 '^# mesh'
+1|# mesh box.obj: OBJ, 10 triangles, 20 vertices, from 0 0 0 to 2 1 3
+1|#   not closed: 1 triangle is at the edge from 0 0 3 to 0 1 3, where there must be two
+$ { cat scenes/box.obj; echo 'f 4 8 6'; echo 'f 2 6 4'; } >scenes/turned.obj
+> kiln check scenes/box.yaml --set backdrop.objects.0.mesh.file=turned.obj | grep -A1 '^# mesh'
+1|# mesh turned.obj: OBJ, 12 triangles, 26 vertices, from 0 0 0 to 2 1 3
+1|#   not closed: 2 triangles are at the edge from 0 1 3 to 2 0 3, and do not face the same side
+
+One with materials: one file of them is missing, and so is a texture. Names of strangers are shown with care.
+
+$ printf '%s\n' 'newmtl old oak' 'Kd 0.8 0.5 0.25' 'Pr 0.75' 'map_Kd oak.png' 'map_Bump there.png' 'newmtl lamp' 'Kd 0 0 0' 'Ke 1 1 1' 'd 0.5' >scenes/box.mtl
+> touch scenes/there.png
+> { printf '%s\n' 'mtllib box.mtl' 'mtllib none.mtl'; sed 's/^v .*/& 1 0.5 0/; 9iusemtl old oak' scenes/box.obj; echo 'usemtl lamp'; echo 'f 2 6 8 4'; } >scenes/painted.obj
+> kiln check scenes/box.yaml --set backdrop.objects.0.mesh.file=painted.obj | grep '^#'
+1|# mesh painted.obj: OBJ, 12 triangles, 24 vertices, from 0 0 0 to 2 1 3
+1|#   closed, its thinnest part 1
+1|#   material 'old oak', not drawn yet: base colour 0.604 0.214 0.0509 times 'oak.png' (missing); roughness 0.75; metalness 0; heights of 'there.png'
+1|#   material 'lamp', not drawn yet: base colour 0 0 0; alpha 0.5, blended; roughness 1; metalness 0; emission 1 1 1
+1|#   colours of vertices, not drawn yet
+1|#   note: the mesh file names the file 'none.mtl': the materials cannot be opened: No such file or directory
+1|#   note: the mesh file names the file 'oak.png': the image cannot be opened: No such file or directory
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about 206 MiB
+$ printf 'newmtl m\nmap_Kd a\033[2Jb.png\n' >scenes/escape.mtl
+> printf '%s\n' 'mtllib escape.mtl' 'usemtl m' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'f 1 2 3' >scenes/escape.obj
+> kiln check scenes/box.yaml --set backdrop.objects.0.mesh.file=escape.obj | grep '^#  '
+1|#   not closed: 1 triangle is at the edge from 0 0 0 to 0 1 0, where there must be two
+1|#   material 'm', not drawn yet: base colour 1 1 1 times 'a\x1b[2Jb.png' (missing); roughness 1; metalness 0
+1|#   note: the mesh file names the file 'a\x1b[2Jb.png': the image cannot be opened: No such file or directory
+$ [ "$(kiln check --hash scenes/box.yaml --set backdrop.objects.0.mesh.file=painted.obj)" = "$(rm scenes/box.mtl; kiln check --hash scenes/box.yaml --set backdrop.objects.0.mesh.file=painted.obj)" ]
+
+A textured glTF that moves, with bones and a clip.
+
+$ kiln check scenes/box.yaml --set backdrop.objects.0.mesh='{file: waving.gltf, animation: {}}' | grep '^#'
+1|# mesh waving.gltf: glTF, 10 triangles, 7 vertices, from -0.8 0.019229 -0.691 to 1.27849 2.28961 0.33836
+1|#   closed, its thinnest part 0.3043
+1|#   2 joints
+1|#   1 morph target
+1|#   clip 0 'wave' of 1.5 s
+1|#   material 'skin', not drawn yet: base colour 1 0.5 0.25 times 'puff.png'; alpha 1, cut at 0.5; roughness 0.5; metalness 0; normals of 'puff.png' (by the second texture coordinates); two-sided
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about 206 MiB
