@@ -144,6 +144,10 @@ uint32_t *gltf_read_integers(struct gltf *g, uint32_t accessor, const char *type
 /* Reads the nodes, finds those of the scene and where they are. */
 bool gltf_find_nodes(struct gltf *g);
 
+/* Returns the nodes of the order, children before their parents. The caller frees them; NULL:
+ * memory is short. */
+uint32_t *gltf_children_first(struct gltf *g);
+
 /* Multiplies matrices whose last row is 0 0 0 1. */
 void gltf_multiply(const double a[3][4], const double b[3][4], double out[3][4]);
 
@@ -185,11 +189,13 @@ bool gltf_read_primitive(struct gltf *g, uint32_t json, bool uvs, bool weights,
                          struct gltf_primitive *primitive);
 void gltf_finish_primitive(struct gltf_primitive *primitive);
 
-/* Moves texture coordinates as the base colour texture of the material says (gltf_texture.c). */
-bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive);
+/* Moves texture coordinates as the base colour texture of the material says, and makes them count
+ * from the bottom of a picture (gltf_texture.c). */
+void gltf_place_uvs(const struct gltf *g, struct gltf_primitive *primitive);
 
 /* Gets the transform of texture coordinates of a texture that a material names (KHR_texture_
- * transform, gltf_texture.c). False: it has none, and rows are not changed. */
+ * transform), for coordinates that count from the bottom. False: it has none, and rows are not
+ * changed. */
 bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3]);
 
 /* Gets the weights of morph targets by default of a node's mesh; NULL: all are 0, or failure, which

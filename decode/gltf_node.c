@@ -301,6 +301,38 @@ bool gltf_find_nodes(struct gltf *g)
     return ok;
 }
 
+uint32_t *gltf_children_first(struct gltf *g)
+{
+    const size_t most = 2 * (size_t)g->lists[GLTF_NODES].count + 2;
+    uint32_t *nodes = malloc(((size_t)g->order_count + 1) * sizeof *nodes);
+    uint32_t *stack = malloc(most * sizeof *stack);
+    bool *open = calloc((size_t)g->lists[GLTF_NODES].count + 1, sizeof *open);
+    uint32_t count = 0, height = 0;
+    for (uint32_t i = 0; nodes && stack && open && i < g->order_count; i++) {
+        if (g->nodes[g->order[i]].parent != JSON_NONE)
+            continue;
+        stack[height++] = g->order[i];
+        while (height > 0) {
+            const uint32_t number = stack[height - 1];
+            if (open[number]) { /* its children are done */
+                nodes[count++] = number;
+                height--;
+            } else {
+                open[number] = true;
+                push_children(g, number, stack, &height);
+            }
+        }
+    }
+    free(stack);
+    free(open);
+    if (count < g->order_count || !nodes) {
+        free(nodes);
+        decode_out_of_memory(g->error);
+        return NULL;
+    }
+    return nodes;
+}
+
 /* ---- instances ------------------------------------------------------------------------------- */
 
 /* Reads one attribute of the instances; *values is NULL if there is none. */

@@ -339,14 +339,15 @@ bool gltf_read_primitive(struct gltf *g, uint32_t json, bool uvs, bool weights,
     if (primitive->material == JSON_NONE)
         primitive->material = g->lists[GLTF_MATERIALS].count;
     const uint32_t draco = gltf_draco_of(g, json);
+    bool ok = true;
     if (draco != JSON_NONE)
-        return gltf_read_draco(g, json, draco, uvs, weights, primitive) &&
-               read_targets(g, json, (struct gltf_range){0, primitive->vertex_count}, primitive) &&
-               (!uvs || gltf_place_uvs(g, primitive));
-    if (mode < MODE_TRIANGLES)
-        return true;
-    return read_plain(g, json, mode, uvs, weights, primitive) &&
-           (!uvs || gltf_place_uvs(g, primitive));
+        ok = gltf_read_draco(g, json, draco, uvs, weights, primitive) &&
+             read_targets(g, json, (struct gltf_range){0, primitive->vertex_count}, primitive);
+    else if (mode >= MODE_TRIANGLES)
+        ok = read_plain(g, json, mode, uvs, weights, primitive);
+    if (ok)
+        gltf_place_uvs(g, primitive);
+    return ok;
 }
 
 float *gltf_default_weights(struct gltf *g, uint32_t node, uint32_t count, bool *ok)

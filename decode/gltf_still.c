@@ -15,10 +15,42 @@ struct still {
     size_t mesh_capacity, part_capacity, triangle_count;
     /* Of each mesh of the file, where its primitives are among the model's meshes, from 1. */
     size_t *made;
+    uint32_t *ranks;       /* of the materials of the file; the last: of none */
     double (*bones)[3][4]; /* of the skin of the node at hand, to the file's space; NULL: none */
     uint32_t bone_count;
     bool placed; /* the bones have placed the primitive at hand */
 };
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+/* Ranks the materials by their first use, that of a node's children before its own. The triangles
+ * of a surface are ordered so since kiln's first version, and states of particles depend on it. */
+static bool rank_materials(struct still *s)
+{
+    struct gltf *g = s->g;
+    const struct json *json = &g->json;
+    const uint32_t materials = g->lists[GLTF_MATERIALS].count;
+    uint32_t next = 0, number = 0;
+    uint32_t *nodes = gltf_children_first(g);
+    s->ranks = nodes ? malloc(((size_t)materials + 1) * sizeof *s->ranks) : NULL;
+    if (!s->ranks) {
+        free(nodes);
+        return decode_out_of_memory(g->error);
+    }
+    for (uint32_t i = 0; i <= materials; i++)
+        s->ranks[i] = materials;
+    for (uint32_t i = 0; i < g->order_count; i++) {
+        const uint32_t mesh = gltf_element(g, GLTF_MESHES, g->nodes[nodes[i]].mesh);
+        const uint32_t list = json_member(json, mesh, "primitives");
+        for (uint32_t p = json_first(json, list); p != JSON_NONE; p = json_after(json, list, p)) {
+            if (json_index(json, json_member(json, p, "material"), &number) && number < materials &&
+                s->ranks[number] == materials)
+                s->ranks[number] = next++;
+        }
+    }
+    free(nodes);
+    return true;
+}
 
 /* ---- growing --------------------------------------------------------------------------------- */
 
@@ -41,7 +73,8 @@ static bool add_mesh(struct still *s, struct gltf_primitive *from, size_t *numbe
                                                         .colors = from->colors,
                                                         .second_uvs = from->second_uvs,
                                                         .triangles = from->triangles,
-                                                        .material = from->material};
+                                                        .material = s->ranks[from->material],
+                                                        .source = from->material};
     from->positions = from->normals = NULL;
     from->uvs = from->second_uvs = NULL;
     from->colors = NULL;
@@ -227,11 +260,13 @@ bool gltf_still(struct gltf *g, struct decode_model *model)
     bool ok = s.made != NULL;
     if (!ok)
         decode_out_of_memory(g->error);
+    ok = ok && rank_materials(&s);
     for (uint32_t i = 0; ok && i < g->order_count; i++) {
         const struct gltf_node *node = &g->nodes[g->order[i]];
         if (node->shown && node->mesh != JSON_NONE)
             ok = add_node(&s, g->order[i]);
     }
     free(s.made);
+    free(s.ranks);
     return ok;
 }

@@ -1,6 +1,7 @@
 /* This file moves the texture coordinates of a primitive to where its base colour texture is looked
- * up (KHR_texture_transform). Files with integers as coordinates depend on it: the transform gives
- * them their scale. */
+ * up (KHR_texture_transform), and makes them count from the bottom of a picture, as those of other
+ * formats do; glTF counts from the top. Files with integers as coordinates depend on the transform,
+ * which gives them their scale. */
 #include <stddef.h>
 #include <string.h>
 
@@ -40,43 +41,65 @@ static void get_pair(const struct gltf *g, uint32_t array, double otherwise, dou
     pair[1] = number_of(g, second, otherwise);
 }
 
+/* What an extension says of texture coordinates. */
+struct transform {
+    double offset[2], scale[2], sine, cosine;
+};
+
+static struct transform get_transform(const struct gltf *g, uint32_t json)
+{
+    struct transform t;
+    get_pair(g, json_member(&g->json, json, "offset"), 0.0, t.offset);
+    get_pair(g, json_member(&g->json, json, "scale"), 1.0, t.scale);
+    find_sine(number_of(g, json_member(&g->json, json, "rotation"), 0.0), &t.sine, &t.cosine);
+    return t;
+}
+
 bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3])
 {
-    const uint32_t transform = gltf_extension(g, texture, "KHR_texture_transform");
-    double offset[2], scale[2], sine, cosine;
-    if (transform == JSON_NONE)
+    const uint32_t json = gltf_extension(g, texture, "KHR_texture_transform");
+    if (json == JSON_NONE)
         return false;
-    get_pair(g, json_member(&g->json, transform, "offset"), 0.0, offset);
-    get_pair(g, json_member(&g->json, transform, "scale"), 1.0, scale);
-    find_sine(number_of(g, json_member(&g->json, transform, "rotation"), 0.0), &sine, &cosine);
-    const double found[2][3] = {{cosine * scale[0], sine * scale[1], offset[0]},
-                                {-sine * scale[0], cosine * scale[1], offset[1]}};
-    memcpy(rows, found, sizeof found);
+    const struct transform t = get_transform(g, json);
+    const double x[3] = {t.cosine * t.scale[0], t.sine * t.scale[1], t.offset[0]};
+    const double y[3] = {-t.sine * t.scale[0], t.cosine * t.scale[1], t.offset[1]};
+    /* The extension's numbers count from the top of a picture, before and behind it. */
+    const double from_bottom[2][3] = {{x[0], -x[1], x[1] + x[2]}, {-y[0], y[1], 1.0 - y[1] - y[2]}};
+    memcpy(rows, from_bottom, sizeof from_bottom);
     return true;
 }
 
-bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive)
+static void transform(const struct gltf *g, uint32_t json, struct gltf_primitive *primitive)
 {
-    if (g->wanted->materials) /* then the material has the transform */
-        return true;
+    const struct transform t = get_transform(g, json);
+    for (size_t i = 0; i < primitive->vertex_count; i++) {
+        float *uv = primitive->uvs[i];
+        const double u = t.scale[0] * (double)uv[0], v = t.scale[1] * (double)uv[1];
+        uv[0] = (float)(t.cosine * u + t.sine * v + t.offset[0]);
+        uv[1] = (float)(t.cosine * v - t.sine * u + t.offset[1]);
+    }
+}
+
+/* Makes texture coordinates count from the bottom. */
+static void turn(float (*uvs)[2], size_t count)
+{
+    for (size_t i = 0; uvs && i < count; i++)
+        uvs[i][1] = (float)(1.0 - (double)uvs[i][1]);
+}
+
+void gltf_place_uvs(const struct gltf *g, struct gltf_primitive *primitive)
+{
     const uint32_t material = gltf_element(g, GLTF_MATERIALS, primitive->material);
     const uint32_t looks = json_member(&g->json, material, "pbrMetallicRoughness");
     const uint32_t texture = json_member(&g->json, looks, "baseColorTexture");
-    const uint32_t transform = gltf_extension(g, texture, "KHR_texture_transform");
-    uint32_t set = json_member(&g->json, transform, "texCoord");
+    const uint32_t extension = gltf_extension(g, texture, "KHR_texture_transform");
+    uint32_t set = json_member(&g->json, extension, "texCoord");
     if (set == JSON_NONE)
         set = json_member(&g->json, texture, "texCoord");
-    if (transform == JSON_NONE || !primitive->uvs || number_of(g, set, 0.0) != 0.0)
-        return true;
-    double offset[2], scale[2], sine, cosine;
-    get_pair(g, json_member(&g->json, transform, "offset"), 0.0, offset);
-    get_pair(g, json_member(&g->json, transform, "scale"), 1.0, scale);
-    find_sine(number_of(g, json_member(&g->json, transform, "rotation"), 0.0), &sine, &cosine);
-    for (size_t i = 0; i < primitive->vertex_count; i++) {
-        float *uv = primitive->uvs[i];
-        const double u = scale[0] * (double)uv[0], v = scale[1] * (double)uv[1];
-        uv[0] = (float)(cosine * u + sine * v + offset[0]);
-        uv[1] = (float)(cosine * v - sine * u + offset[1]);
-    }
-    return true;
+    /* a mesh that is read with its materials has the transform in them */
+    if (primitive->uvs && extension != JSON_NONE && number_of(g, set, 0.0) == 0.0 &&
+        !g->wanted->materials)
+        transform(g, extension, primitive);
+    turn(primitive->uvs, primitive->vertex_count);
+    turn(primitive->second_uvs, primitive->vertex_count);
 }

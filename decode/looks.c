@@ -27,55 +27,61 @@ void decode_note(char *notes, const char *format, ...)
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
-static int by_number(const void *a, const void *b)
+/* A material that a part has. */
+struct use {
+    uint32_t material, source;
+};
+
+static int by_material(const void *a, const void *b)
 {
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    const uint32_t x = ((const struct use *)a)->material, y = ((const struct use *)b)->material;
     return (x > y) - (x < y);
 }
 
-/* Finds the numbers of all materials that parts have, each once and in ascending order. Returns how
- * many there are. */
-static size_t list_numbers(const struct decode_model *model, uint32_t none, uint32_t *numbers)
+/* Finds all materials that parts have, each once and in their order. Returns how many there are. */
+static size_t list_uses(const struct decode_model *model, uint32_t none, struct use *uses)
 {
     size_t count = 0, kept = 0;
     for (size_t i = 0; i < model->part_count; i++) {
         const struct decode_model_mesh *mesh = &model->meshes[model->parts[i].mesh];
-        if (mesh->triangle_count > 0 && mesh->material != none)
-            numbers[count++] = mesh->material;
+        if (mesh->triangle_count > 0 && mesh->source != none)
+            uses[count++] = (struct use){mesh->material, mesh->source};
     }
     if (count > 0)
-        qsort(numbers, count, sizeof *numbers, by_number);
+        qsort(uses, count, sizeof *uses, by_material);
     for (size_t i = 0; i < count; i++) {
-        if (i == 0 || numbers[i] != numbers[i - 1])
-            numbers[kept++] = numbers[i];
+        if (i == 0 || by_material(&uses[i], &uses[i - 1]) != 0)
+            uses[kept++] = uses[i];
     }
     return kept;
 }
 
 bool decode_assign_looks(struct decode_model *model, uint32_t none,
-                         uint32_t numbers[KILN_MAX_MATERIALS], struct kiln_error *error)
+                         uint32_t sources[KILN_MAX_MATERIALS], struct kiln_error *error)
 {
     struct kiln_looks_result *looks = model->looks;
-    uint32_t *all = malloc((model->part_count + 1) * sizeof *all);
-    if (!all)
+    struct use *uses = malloc((model->part_count + 1) * sizeof *uses);
+    if (!uses)
         return decode_out_of_memory(error);
-    const size_t count = list_numbers(model, none, all);
+    const size_t count = list_uses(model, none, uses);
     const size_t kept = count < KILN_MAX_MATERIALS ? count : KILN_MAX_MATERIALS;
     if (kept < count)
         decode_note(model->notes, "the mesh has %zu materials; those beyond %d are left out", count,
                     KILN_MAX_MATERIALS);
     for (size_t i = 0; i < kept; i++) {
-        numbers[i] = all[i];
+        sources[i] = uses[i].source;
         looks->materials[i] = kiln_material_default();
     }
     looks->material_count = (uint32_t)kept;
     for (size_t i = 0; i < model->mesh_count; i++) {
-        const uint32_t *found =
-            kept > 0 ? bsearch(&model->meshes[i].material, numbers, kept, sizeof *all, by_number)
-                     : NULL;
-        model->meshes[i].look = found ? (uint16_t)(found - numbers) : KILN_NO_MATERIAL;
+        struct decode_model_mesh *mesh = &model->meshes[i];
+        const struct use use = {mesh->material, mesh->source};
+        const struct use *found = kept > 0 && mesh->source != none
+                                      ? bsearch(&use, uses, kept, sizeof *uses, by_material)
+                                      : NULL;
+        mesh->look = found ? (uint16_t)(found - uses) : KILN_NO_MATERIAL;
     }
-    free(all);
+    free(uses);
     return true;
 }
 

@@ -21,6 +21,7 @@ struct decode_model_mesh {
     float (*colors)[4], (*second_uvs)[2];
     uint32_t (*triangles)[3];
     uint32_t material; /* by which the triangles of a surface are ordered */
+    uint32_t source;   /* the material's number in the file */
     uint16_t look;     /* the number of the material in the result (looks.h) */
 };
 

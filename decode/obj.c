@@ -554,7 +554,7 @@ static bool put_meshes(const struct reading *r, struct decode_model *model)
         const struct run *run = &r->runs[i];
         struct decode_model_mesh *mesh = &model->meshes[i];
         const bool is_last = i + 1 == count;
-        mesh->material = run->material;
+        mesh->material = mesh->source = run->material;
         mesh->vertex_count = (is_last ? r->vertex_count : run[1].vertex) - run->vertex;
         mesh->triangle_count = (is_last ? r->triangle_count : run[1].triangle) - run->triangle;
         ok = put_mesh(r, run, mesh);
