@@ -1,5 +1,5 @@
-/* Declares what readers of meshes share to fill in materials. A reader numbers materials as the
- * file does (decode_model_mesh.material); the result has only those that triangles use. */
+/* Declares what readers of meshes share to fill in materials. A file may have materials that no
+ * triangle uses; the result has only those that some use. */
 #ifndef KILN_DECODE_LOOKS_H
 #define KILN_DECODE_LOOKS_H
 
@@ -9,11 +9,11 @@
 /* Adds a note for the user, unless there is no room or the same was noted before. */
 void decode_note(char *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Gives the result as many materials as the model's parts use, each a default one, and its meshes
- * their numbers (look). numbers[] gets the file's number of each, in ascending order. none: the
- * number that stands for no material. */
+/* Gives the result as many materials as the model's parts use, each a default one, in the order of
+ * their triangles, and the meshes their numbers (look). sources[] gets the number of each in the
+ * file. none: the number in the file that stands for no material. */
 bool decode_assign_looks(struct decode_model *model, uint32_t none,
-                         uint32_t numbers[KILN_MAX_MATERIALS], struct kiln_error *error);
+                         uint32_t sources[KILN_MAX_MATERIALS], struct kiln_error *error);
 
 /* Returns the number of the texture in a file, which is that of an earlier one with the same path.
  * KILN_NO_TEXTURE, with a note: the path leads elsewhere, is too long, or there are too many. */

@@ -52,11 +52,19 @@ async function loadGltf(file) {
     return (await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '')).scene;
 }
 
+// The matrix that takes texture coordinates to where they are looked up, both counted from the bottom of the picture: those
+// of a glTF count from its top, for which three.js does not flip the picture.
+function rowsOf(map) {
+    const top = map.flipY ? new THREE.Matrix3() : new THREE.Matrix3(1, 0, 0, 0, -1, 1, 0, 0, 1);
+    const m = top.clone().multiply(map.matrix).multiply(top).elements;
+    return [m[0], m[3], m[6], m[1], m[4], m[7]];
+}
+
 function mapLine(use, map, strength) {
     map.updateMatrix();
-    const m = map.matrix.elements, nearest = map.magFilter === THREE.NearestFilter ? 1 : 0;
+    const nearest = map.magFilter === THREE.NearestFilter ? 1 : 0;
     return `map ${use} ${map.userData.picture} ${map.channel} ${WRAPS[map.wrapS]} ${WRAPS[map.wrapT]} ${nearest} ` +
-        `${strength} ${m[0]} ${m[3]} ${m[6]} ${m[1]} ${m[4]} ${m[7]}`;
+        `${strength} ${rowsOf(map).join(' ')}`;
 }
 
 function materialLines(m) {

@@ -172,9 +172,9 @@ static void gltf_says_channels_and_sets(void **state)
     assert_true(looks->textures[maps[KILN_USE_COLOR].texture].is_missing);
     assert_non_null(strstr(mesh->notes, "names the file 'my wood.png'"));
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        const float place = 1 - mesh->uvs[i][1]; /* both are parts of the vertex' number */
-        assert_true(mesh->uvs[i][0] == place && looks->second_uvs[i][0] == place / 2 &&
-                    looks->second_uvs[i][1] == place / 4);
+        const float u = mesh->uvs[i][0]; /* all count from the bottom, and are parts of a number */
+        assert_true(mesh->uvs[i][1] == u && looks->second_uvs[i][0] == u / 2 &&
+                    looks->second_uvs[i][1] == 1 - u / 4);
     }
     kiln_mesh_destroy(&mesh);
 }
@@ -183,7 +183,7 @@ static void gltf_says_channels_and_sets(void **state)
 static void draco_has_colors(void **state)
 {
     static const uint8_t colors[3][3] = {{255, 51, 0}, {0, 102, 255}, {204, 0, 153}};
-    static const float uvs[3][4] = {{0, 0, 0.5f, 0}, {1, 0, 0, 0.25f}, {0, 1, 0.125f, 1}};
+    static const float uvs[3][4] = {{0, 1, 0.5f, 1}, {1, 1, 0, 0.75f}, {0, 0, 0.125f, 0}};
     (void)state;
     struct kiln_mesh *mesh = load(FOLDER "draco.glb");
     assert_int_equal(mesh->vertex_count, 3);

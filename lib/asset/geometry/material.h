@@ -47,7 +47,7 @@ enum kiln_alpha_mode {
 enum kiln_material_use {
     KILN_USE_COLOR, /* multiplies the base colour; its alpha, too, unless there is KILN_USE_ALPHA */
     KILN_USE_ALPHA, /* multiplies alpha */
-    KILN_USE_NORMAL,    /* normals in tangent space, of which y points along increasing v */
+    KILN_USE_NORMAL,    /* normals in tangent space, of which y points up in the picture */
     KILN_USE_HEIGHT,    /* heights, which bend normals */
     KILN_USE_ROUGHNESS, /* multiplies roughness */
     KILN_USE_METALNESS, /* multiplies metalness */
@@ -82,7 +82,7 @@ struct kiln_material_map {
     uint32_t is_inverse; /* one minus the number of the texture counts */
     float strength;      /* of normals and heights: what slopes or heights are multiplied by */
     /* The matrix that takes texture coordinates, with 1 as their third, to where the texture is
-     * looked up. */
+     * looked up. Both count from the bottom left of the picture. */
     float rows[2][3];
 };
 
