@@ -157,8 +157,7 @@ TABLE(paint) = {
 TABLE(mesh) = {
     {ROW(MOTION, "file", mesh, file, NULL,
          "An OBJ, glTF, GLB, PLY or STL file of triangles, in metres and y up. Its materials are "
-         "left "
-         "out.")},
+         "not drawn.")},
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Position of the file's origin."),
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,

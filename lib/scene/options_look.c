@@ -57,10 +57,9 @@ static const char *const orients[] = {
 };
 
 TABLE(mesh) = {
-    {ROW(
-        LOOK, "file", mesh, mesh.file, "none",
-        "An OBJ, glTF, GLB, PLY or STL file of triangles, z ahead and y up. Its materials are left "
-        "out. The longest edge of its bounding box is scaled to the size.")},
+    {ROW(LOOK, "file", mesh, mesh.file, "none",
+         "An OBJ, glTF, GLB, PLY or STL file of triangles, z ahead and y up. Its materials are not "
+         "drawn. The longest edge of its bounding box is scaled to the size.")},
     CHOICE(LOOK, "orient", mesh.orient, orients, "velocity",
            "`velocity` turns the z axis of the mesh to the direction of flight, without a roll. "
            "`spin` turns the mesh as collisions have turned the particle, where they do "
