@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "decode.h"
-#include "shared/exact.h"
 
 void decode_note(char *notes, const char *format, ...)
 {
@@ -162,12 +161,14 @@ uint32_t decode_add_bytes(struct decode_model *model, const void *bytes, size_t 
 
 /* ---- numbers --------------------------------------------------------------------------------- */
 
-float decode_light_of(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : exact_pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 float decode_clamp(float number, float least, float most)
 {
     return number > least ? (number < most ? number : most) : least;
+}
+
+void decode_put_color(const float encoded[3], float alpha, float out[4])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = kiln_light_of_srgb(decode_clamp(encoded[c], 0, 1));
+    out[3] = decode_clamp(alpha, 0, 1);
 }

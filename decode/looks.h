@@ -23,9 +23,8 @@ uint32_t decode_add_file(struct decode_model *model, const char *path, size_t le
  * KILN_NO_TEXTURE, with a note: they are too many. */
 uint32_t decode_add_bytes(struct decode_model *model, const void *bytes, size_t size);
 
-/* Returns the light of a number that sRGB's transfer function encodes. Above 1, that function goes
- * on. */
-float decode_light_of(float encoded);
+/* Stores the light of a vertex' colour, which sRGB's transfer function encodes. */
+void decode_put_color(const float encoded[3], float alpha, float out[4]);
 
 /* Returns a number between limits; the lower one for what is no number. */
 float decode_clamp(float number, float least, float most);

@@ -254,8 +254,8 @@ static void put_entry(struct reading *r)
     const bool glows = has_map(entry, KILN_USE_EMISSION) && !entry->has_emission;
     for (int c = 0; c < 3; c++) {
         out->color[c] =
-            entry->has_diffuse ? decode_light_of(decode_clamp(entry->diffuse[c], 0, 1)) : 1;
-        out->emission[c] = glows ? 1 : decode_light_of(decode_clamp(entry->emission[c], 0, 100));
+            entry->has_diffuse ? kiln_light_of_srgb(decode_clamp(entry->diffuse[c], 0, 1)) : 1;
+        out->emission[c] = glows ? 1 : kiln_light_of_srgb(decode_clamp(entry->emission[c], 0, 100));
     }
     if (!isnan(entry->opacity))
         out->alpha = decode_clamp(entry->opacity, 0, 1);

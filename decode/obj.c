@@ -210,13 +210,12 @@ static bool read_value(const struct reading *r, struct decode_line *line, int ki
 static void read_color(struct reading *r, struct decode_line *line, float out[4])
 {
     struct decode_word word;
+    static const float white[3] = {1, 1, 1};
     float color[3] = {1, 1, 1};
     bool has = true;
     for (int c = 0; c < 3; c++)
         has = has && take_word(line, &word) && decode_word_float(&word, &color[c]);
-    for (int c = 0; c < 3; c++)
-        out[c] = has ? decode_light_of(decode_clamp(color[c], 0, 1)) : 1;
-    out[3] = 1;
+    decode_put_color(has ? color : white, 1, out);
     r->has_colors = r->has_colors || has;
 }
 

@@ -381,14 +381,6 @@ static double part_of(const struct property *property, double number)
     return property->type < FLOAT32 ? number / (double)(((uint64_t)1 << bits) - 1) : number;
 }
 
-/* Stores the colour of a vertex, which is sRGB in the file. */
-static void put_color(const float values[ROLE_COUNT], float out[4])
-{
-    for (int c = 0; c < 3; c++)
-        out[c] = decode_light_of(decode_clamp(values[RED + c], 0, 1));
-    out[3] = decode_clamp(values[ALPHA], 0, 1);
-}
-
 static bool read_vertex(struct reading *r, size_t i)
 {
     float values[ROLE_COUNT] = {[ALPHA] = 1};
@@ -409,7 +401,7 @@ static bool read_vertex(struct reading *r, size_t i)
     if (r->mesh->normals)
         memcpy(r->mesh->normals[i], values + NORMAL_X, sizeof *r->mesh->normals);
     if (r->mesh->colors)
-        put_color(values, r->mesh->colors[i]);
+        decode_put_color(values + RED, values[ALPHA], r->mesh->colors[i]);
     for (int c = 0; r->mesh->uvs && c < 2; c++)
         r->mesh->uvs[i][c] = isfinite(values[U + c]) ? values[U + c] : 0.0f;
     return true;

@@ -9,6 +9,7 @@
 
 #include "asset/geometry/mesh_in.h"
 #include "base/error.h"
+#include "shared/exact.h"
 
 struct kiln_material kiln_material_default(void)
 {
@@ -18,6 +19,11 @@ struct kiln_material kiln_material_default(void)
         material.maps[i] = (struct kiln_material_map){
             .texture = KILN_NO_TEXTURE, .strength = 1, .rows = {{1, 0, 0}, {0, 1, 0}}};
     return material;
+}
+
+float kiln_light_of_srgb(float encoded)
+{
+    return encoded <= 0.04045f ? encoded / 12.92f : exact_pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 void kiln_mesh_looks_destroy(struct kiln_mesh_looks **looks)

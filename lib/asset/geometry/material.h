@@ -113,6 +113,10 @@ struct kiln_mesh_looks {
 /* Returns a material that reflects as one without any does: white, rough, and no metal. */
 struct kiln_material kiln_material_default(void);
 
+/* Returns the light of a number that sRGB's transfer function encodes. Above 1, that function goes
+ * on. */
+float kiln_light_of_srgb(float encoded);
+
 void kiln_mesh_looks_destroy(struct kiln_mesh_looks **looks);
 
 /* Returns whether a path leads only downwards, by its text. */
