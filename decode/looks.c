@@ -135,6 +135,30 @@ uint32_t decode_add_file(struct decode_model *model, const char *path, size_t le
     return add_texture(model, &texture);
 }
 
+void decode_drop_textures(struct kiln_looks_result *looks)
+{
+    uint32_t numbers[KILN_MAX_TEXTURES] = {0}, kept = 0; /* from 1; 0: it is not used */
+    for (size_t i = 0; i < (size_t)looks->material_count * KILN_MATERIAL_USES; i++) {
+        const uint32_t texture =
+            looks->materials[i / KILN_MATERIAL_USES].maps[i % KILN_MATERIAL_USES].texture;
+        if (texture != KILN_NO_TEXTURE)
+            numbers[texture] = 1;
+    }
+    for (uint32_t i = 0; i < looks->texture_count; i++) {
+        if (numbers[i] == 0)
+            continue;
+        looks->textures[kept] = looks->textures[i];
+        numbers[i] = ++kept;
+    }
+    looks->texture_count = kept;
+    for (size_t i = 0; i < (size_t)looks->material_count * KILN_MATERIAL_USES; i++) {
+        uint32_t *texture =
+            &looks->materials[i / KILN_MATERIAL_USES].maps[i % KILN_MATERIAL_USES].texture;
+        if (*texture != KILN_NO_TEXTURE)
+            *texture = numbers[*texture] - 1;
+    }
+}
+
 uint32_t decode_add_bytes(struct decode_model *model, const void *bytes, size_t size)
 {
     struct kiln_looks_result *looks = model->looks;

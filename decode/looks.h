@@ -19,6 +19,9 @@ bool decode_assign_looks(struct decode_model *model, uint32_t none,
  * KILN_NO_TEXTURE, with a note: the path leads elsewhere, is too long, or there are too many. */
 uint32_t decode_add_file(struct decode_model *model, const char *path, size_t length);
 
+/* Drops the textures in files that no material uses. */
+void decode_drop_textures(struct kiln_looks_result *looks);
+
 /* Returns the number of a texture whose bytes lie in the file of the mesh, which are copied.
  * KILN_NO_TEXTURE, with a note: they are too many. */
 uint32_t decode_add_bytes(struct decode_model *model, const void *bytes, size_t size);

@@ -19,6 +19,8 @@ struct entry {
     float exponent, opacity, transparency, roughness, metalness; /* NaN: it does not say */
     bool has_diffuse, has_specular, has_emission, is_matt;
     struct kiln_material_map maps[KILN_MATERIAL_USES];
+    char paths[KILN_MATERIAL_USES][KILN_TEXTURE_PATH_SIZE + 1]; /* of their textures */
+    size_t lengths[KILN_MATERIAL_USES];                         /* of the paths; 0: no texture */
 };
 
 struct reading {
@@ -192,16 +194,13 @@ static size_t take_path(struct decode_line *line, char path[KILN_TEXTURE_PATH_SI
     if (rest.length > KILN_TEXTURE_PATH_SIZE)
         rest.length = KILN_TEXTURE_PATH_SIZE; /* decode_add_file refuses one of this length */
     for (size_t i = 0; i < rest.length; i++)
-        path[i] = rest.start[i];
-    for (size_t i = 0; i < rest.length; i++)
-        path[i] = (char)(path[i] == '\\' ? '/' : path[i]);
+        path[i] = (char)(rest.start[i] == '\\' ? '/' : rest.start[i]);
     return rest.length;
 }
 
 static void read_map(struct reading *r, enum kiln_material_use use, struct decode_line *line)
 {
     struct kiln_material_map map = kiln_material_default().maps[use];
-    char path[KILN_TEXTURE_PATH_SIZE + 1];
     for (;;) {
         struct decode_line next = *line;
         struct decode_word word;
@@ -211,10 +210,10 @@ static void read_map(struct reading *r, enum kiln_material_use use, struct decod
             break;
         *line = next;
     }
-    const size_t length = take_path(line, path);
+    const size_t length = take_path(line, r->entry.paths[use]);
     if (length == 0)
         return;
-    map.texture = decode_add_file(r->model, path, length);
+    r->entry.lengths[use] = length;
     r->entry.maps[use] = map;
 }
 
@@ -227,21 +226,36 @@ static void begin_entry(struct reading *r)
     memcpy(r->entry.maps, kiln_material_default().maps, sizeof r->entry.maps);
 }
 
-static bool has_map(const struct entry *entry, enum kiln_material_use use)
+static bool has_map(const struct kiln_material *material, enum kiln_material_use use)
 {
-    return entry->maps[use].texture != KILN_NO_TEXTURE;
+    return material->maps[use].texture != KILN_NO_TEXTURE;
 }
 
-static float roughness_of(const struct entry *entry)
+static float roughness_of(const struct entry *entry, const struct kiln_material *out)
 {
     const float *s = entry->specular;
     if (!isnan(entry->roughness))
         return decode_clamp(entry->roughness, 0, 1);
-    if (has_map(entry, KILN_USE_ROUGHNESS) || isnan(entry->exponent) || entry->is_matt ||
+    if (has_map(out, KILN_USE_ROUGHNESS) || isnan(entry->exponent) || entry->is_matt ||
         (entry->has_specular && s[0] == 0 && s[1] == 0 && s[2] == 0))
         return 1;
     const float exponent = decode_clamp(entry->exponent, 0, 1e6f);
     return sqrtf(sqrtf(2.0f / (exponent + 2.0f)));
+}
+
+/* Gives the material at hand its textures. Those of an earlier one with its name are not needed any
+ * more. */
+static void put_textures(const struct reading *r, struct kiln_material *out)
+{
+    struct kiln_looks_result *looks = r->model->looks;
+    memcpy(out->maps, r->entry.maps, sizeof out->maps);
+    if (looks->texture_count > KILN_MAX_TEXTURES - KILN_MATERIAL_USES)
+        decode_drop_textures(looks);
+    for (int i = 0; i < KILN_MATERIAL_USES; i++) {
+        if (r->entry.lengths[i] > 0)
+            out->maps[i].texture =
+                decode_add_file(r->model, r->entry.paths[i], r->entry.lengths[i]);
+    }
 }
 
 /* Stores the material at hand. A texture of a number that the file does not give multiplies 1. */
@@ -251,7 +265,8 @@ static void put_entry(struct reading *r)
         return;
     const struct entry *entry = &r->entry;
     struct kiln_material *out = &r->model->looks->materials[r->number];
-    const bool glows = has_map(entry, KILN_USE_EMISSION) && !entry->has_emission;
+    put_textures(r, out);
+    const bool glows = has_map(out, KILN_USE_EMISSION) && !entry->has_emission;
     for (int c = 0; c < 3; c++) {
         out->color[c] =
             entry->has_diffuse ? kiln_light_of_srgb(decode_clamp(entry->diffuse[c], 0, 1)) : 1;
@@ -262,12 +277,11 @@ static void put_entry(struct reading *r)
     else
         out->alpha = isnan(entry->transparency) ? 1 : decode_clamp(1 - entry->transparency, 0, 1);
     out->alpha_mode =
-        out->alpha < 1 || has_map(entry, KILN_USE_ALPHA) ? KILN_ALPHA_BLEND : KILN_ALPHA_OPAQUE;
-    out->roughness = roughness_of(entry);
-    out->metalness = !isnan(entry->metalness)             ? decode_clamp(entry->metalness, 0, 1)
-                     : has_map(entry, KILN_USE_METALNESS) ? 1
-                                                          : 0;
-    memcpy(out->maps, entry->maps, sizeof out->maps);
+        out->alpha < 1 || has_map(out, KILN_USE_ALPHA) ? KILN_ALPHA_BLEND : KILN_ALPHA_OPAQUE;
+    out->roughness = roughness_of(entry, out);
+    out->metalness = !isnan(entry->metalness)           ? decode_clamp(entry->metalness, 0, 1)
+                     : has_map(out, KILN_USE_METALNESS) ? 1
+                                                        : 0;
     r->is_found[r->number] = true;
 }
 

@@ -506,6 +506,7 @@ static bool put_looks(struct reading *r, struct decode_model *model)
                     r->library_count, MOST_LIBRARIES);
     for (size_t i = 0; i < r->library_count && i < MOST_LIBRARIES && count > 0; i++)
         all_read = read_library(r, &r->libraries[i], model, names, is_found) && all_read;
+    decode_drop_textures(model->looks);
     for (uint32_t i = 0; i < count && all_read; i++) {
         if (!is_found[i])
             decode_note(model->notes, "no file that the mesh names has its material '%s'",

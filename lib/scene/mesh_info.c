@@ -11,6 +11,8 @@
 #include "scene/mesh_looks.h"
 #include "scene/scene.h"
 
+enum { NOTES_SIZE = 2 * KILN_MESSAGE_SIZE };
+
 struct telling {
     const struct kiln_scene *scene;
     void (*visit)(void *user, const struct kiln_mesh_info *info);
@@ -39,14 +41,14 @@ static const char *below_root(const struct kiln_scene *scene, const char *path)
 }
 
 /* Adds the lines of `more` that `notes` has not. */
-static void add_notes(char notes[2 * KILN_MESSAGE_SIZE], const char *more)
+static void add_notes(char notes[NOTES_SIZE], const char *more)
 {
     char line[KILN_MESSAGE_SIZE];
     for (const char *at = more; *at;) {
         const size_t length = strcspn(at, "\n"), used = strlen(notes);
         snprintf(line, sizeof line, "%.*s", (int)length, at);
         if (!strstr(notes, line))
-            snprintf(notes + used, 2 * KILN_MESSAGE_SIZE - used, "%s\n", line);
+            snprintf(notes + used, (size_t)NOTES_SIZE - used, "%s\n", line);
         at += length + (at[length] == '\n');
     }
 }
@@ -54,7 +56,7 @@ static void add_notes(char notes[2 * KILN_MESSAGE_SIZE], const char *more)
 /* Loads a mesh once more, with its materials, and describes them. The mesh of the scene has none.
  * The caller frees the text; NULL: memory is short. */
 static char *describe_looks(const struct kiln_scene *scene, const char *path,
-                            char notes[2 * KILN_MESSAGE_SIZE])
+                            char notes[NOTES_SIZE])
 {
     struct kiln_error error = {0};
     struct kiln_mesh *mesh = kiln_mesh_load_with_materials(scene->loader, path, &error);
@@ -84,7 +86,7 @@ static bool tell(void *user, const char *path, const struct kiln_mesh *mesh,
     const struct telling *telling = user;
     struct kiln_opening opening;
     struct kiln_mesh_clip clips[KILN_MAX_CLIPS];
-    char notes[2 * KILN_MESSAGE_SIZE] = "";
+    char notes[NOTES_SIZE] = "";
     add_notes(notes, mesh->notes);
     char *looks = describe_looks(telling->scene, path, notes);
     struct kiln_mesh_info info = {.path = below_root(telling->scene, path),

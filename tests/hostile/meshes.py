@@ -2,7 +2,7 @@
 import json
 import struct
 
-from rows import LIMIT, OK, REFUSED, asset, check
+from rows import LIMIT, OK, REFUSED, Row, asset, check, scene, write
 
 
 def gltf(**changes):
@@ -69,6 +69,57 @@ def scans():
         yield asset("meshes", "mesh", f"STL {label}", "a.stl", data, smoke=label == "count")
 
 
+def painted(label, files, says, **more):
+    """Returns a row that prints what the mesh is, which reads its materials, too. A wrong material is no error."""
+    def make(root):
+        for name, data in files.items():
+            write(root / name, data)
+        scene(root, "mesh", next(iter(files)))
+        return ["check", "s.yaml"]
+    return Row("meshes", f"materials {label}", make, OK, says=says, **more)
+
+
+def materials():
+    """Yields meshes whose materials are broken, many, or elsewhere."""
+    triangle = "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    mtls = {
+        "sound": ("newmtl a\nKd 1 0 0\n", "base colour 1 0 0"),
+        "secret": ("newmtl a\nmap_Kd ../secret.txt\n", "names the texture '../secret.txt'; it is left out"),
+        "root": ("newmtl a\nmap_Kd -o 1 /etc/passwd\n", "names the texture '/etc/passwd'; it is left out"),
+        "escapes": ("newmtl a\nmap_Kd \x1b]0;x\x07%s%n.png\n", "(missing)"),
+        "not a number": ("newmtl a\nKd nan inf -inf\nPr 1e999\nd nan\nNs -5\nTr -1e38\n", "material 'a'"),
+        "binary": ("newmtl a\n" + "".join(map(chr, range(256))) * 100, "material 'a'"),
+        "long line": ("newmtl a\nmap_Kd " + "x" * 1000000, "longer than 255 bytes"),
+        "options": ("newmtl a\nmap_Kd " + "-o 1 2 3 -s 1 " * 100000 + "-o", "material 'a'"),
+        "many": ("".join(f"newmtl m{i}\nmap_Kd {i}.png\n" for i in range(200000)), "has its material 'a'"),
+        "the same": ("newmtl a\nmap_Kd a.png\n" * 200000, "'a.png' (missing)"),
+        "textures": ("".join(f"newmtl a\nmap_Kd {i}.png\n" for i in range(20000)), "'19999.png' (missing)"),
+        "too large": ("#" * (17 << 20), "the mesh file names the file 'a.mtl'"),
+        "UTF-16": (b"\xff\xfen\0e\0", "UTF-16"),
+    }
+    for label, (text, says) in mtls.items():
+        yield painted(label, {"a.obj": triangle, "a.mtl": text}, says, smoke=label in ("secret", "not a number"))
+    yield painted("outside", {"a.obj": triangle.replace("a.mtl", "../secret.txt")}, "must lie in its folder or below", smoke=True)
+    yield painted("many textures", {
+        "a.obj": "mtllib a.mtl\n" + "".join(f"usemtl {i}\nf 1 2 3\n" for i in range(1000)) + triangle,
+        "a.mtl": "".join(f"newmtl {i}\nmap_Kd {i}.png\nbump b{i}.png\n" for i in range(1000))}, "more textures are missing")
+    yield painted("files", {"a.obj": "mtllib s.yaml\n" * 100000 + triangle}, "files of materials; only 16 are read")
+    yield painted("names", {"a.obj": "".join(f"usemtl {i}\nf 1 2 3\n" for i in range(100000)) + triangle}, "those beyond 1024")
+    image = {"uri": "data:image/png;base64," + "A" * 1000}
+    used = gltf()["meshes"][0]["primitives"][0] | {"material": 0}
+    trees = {
+        "circle": ({"textures": [{"source": 5}]}, "material"), "data": ({"images": [{"uri": "data:,%zz"}]}, "material"),
+        "view": ({"images": [{"bufferView": 0}]}, "a picture of 36 bytes"), "path": ({"images": [{"uri": "..%2fsecret.txt"}]},
+                                                                                   "it is left out"),
+        "zero": ({"images": [{"uri": "a%00b"}]}, "has a zero"), "many": ({"images": [image] * 30000}, "a picture of 750 bytes"),
+        "wrong": ({"images": {"a": 1}, "textures": 5, "samplers": "x"}, "material"),
+    }
+    for label, (changes, says) in trees.items():
+        tree = gltf(meshes=[{"primitives": [used]}], **({"textures": [{"source": 0, "sampler": 9}]} | changes),
+                    materials=[{"name": "\x1b[2J", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}}}])
+        yield painted(f"glTF {label}", {"a.gltf": json.dumps(tree)}, says, smoke=label == "path")
+
+
 def meshes():
     triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     accessor = gltf()["accessors"][0]
@@ -93,6 +144,7 @@ def meshes():
     yield asset("meshes", "mesh", "OBJ over the limit", "a.obj", triangle + "f 1 2 3\nf 1 3 2\n" * 50, LIMIT,
                 lambda: check("--limits", "triangles=10"))
     yield from scans()
+    yield from materials()
     trees = {
         "sound": gltf(), "no nodes": gltf(nodes=[]), "node of itself": gltf(nodes=[{"mesh": 0, "children": [0]}]),
         "nodes in a ring": gltf(nodes=[{"children": [1]}, {"children": [0], "mesh": 0}]),

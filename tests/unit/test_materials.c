@@ -263,6 +263,7 @@ static void values_of_mtl_are_those_of_its_words(void **state)
     expect_near(material_of("Ns 510\nPr 0.75\nPm 0.5").metalness, 0.5);
     expect_near(material_of("").metalness, 0);
     expect_near(material_of("map_Pm there.png").metalness, 1);
+    expect_near(material_of("map_Pm ../there.png").metalness, 0); /* it is left out */
     expect_near(material_of("map_Pr there.png\nNs 9").roughness, 1);
     expect_near(material_of("map_Ke there.png").emission[2], 1);
     expect_near(material_of("map_Ke there.png\nKe 0 0 0").emission[2], 0);

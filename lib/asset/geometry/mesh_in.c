@@ -22,6 +22,7 @@ enum {
     MAX_MATERIAL_WISHES = 16,
     MAX_MATERIAL_BYTES = 16 << 20,
     MAX_TEXTURE_FILE_BYTES = 1 << 30,
+    MOST_TEXTURE_NOTES = 4, /* missing textures that are named */
 };
 
 static const float MAX_COORDINATE = 1e6f;
@@ -116,35 +117,42 @@ static void add_notes(char notes[KILN_MESSAGE_SIZE], const char *lines)
     notes[length] = '\0';
 }
 
-/* Opens a file without which the mesh is read, too: then a note says why it is not. The file is no
- * part of the mesh's hash. */
-static int open_optional(struct request *request, const char *name, struct kiln_loader_file file)
+/* Opens a file of materials, without which the mesh is read, too: then a note says why it is not.
+ * The file is no part of the mesh's hash. */
+static int open_materials(struct request *request, const char *name)
 {
+    static const struct kiln_loader_file file = {NULL, "materials", "MTL", MAX_MATERIAL_BYTES};
     struct kiln_error reason = {0};
-    const int opened = open_companion(request, name, file, &reason);
+    const int opened =
+        request->wanted.materials ? open_companion(request, name, file, &reason) : -1;
     if (opened < 0)
         add_notes(request->notes, reason.message);
     return opened;
 }
 
-static int open_materials(struct request *request, const char *name)
-{
-    static const struct kiln_loader_file file = {NULL, "materials", "MTL", MAX_MATERIAL_BYTES};
-    return request->wanted.materials ? open_optional(request, name, file) : -1;
-}
-
 /* Notes which textures are missing: each is opened, but not read. */
-static void find_textures(struct request *request, struct kiln_mesh_looks *looks)
+static void find_textures(const struct request *request, struct kiln_mesh *mesh)
 {
+    struct kiln_mesh_looks *looks = mesh->looks;
+    char text[64];
+    uint32_t missing = 0;
     static const struct kiln_loader_file file = {NULL, "image", "pictures", MAX_TEXTURE_FILE_BYTES};
     for (uint32_t i = 0; i < looks->texture_count; i++) {
         struct kiln_texture *texture = &looks->textures[i];
         if (!*texture->file)
             continue;
-        const int opened = open_optional(request, texture->file, file);
+        struct kiln_error reason = {0};
+        const int opened = open_companion(request, texture->file, file, &reason);
         texture->is_missing = opened < 0;
+        missing += texture->is_missing;
         if (opened >= 0)
             close(opened);
+        else if (missing <= MOST_TEXTURE_NOTES)
+            add_notes(mesh->notes, reason.message);
+    }
+    if (missing > MOST_TEXTURE_NOTES) {
+        snprintf(text, sizeof text, "%u more textures are missing", missing - MOST_TEXTURE_NOTES);
+        add_notes(mesh->notes, text);
     }
 }
 
@@ -382,10 +390,11 @@ static struct imported take(struct request *request, const struct kiln_mesh_resu
             kiln_mesh_destroy(&mesh);
             return imported;
         }
-        find_textures(request, mesh->looks);
     }
     add_notes(mesh->notes, request->notes);
     add_notes(mesh->notes, result->notes);
+    if (mesh->looks)
+        find_textures(request, mesh);
     kiln_hash_sha256(request->hashes, request->hash_length, mesh->hash);
     if (request->wanted.moving)
         imported.skin = kiln_skin_take(request->name, result, mesh, error);
