@@ -150,8 +150,10 @@ static void find_textures(const struct request *request, struct kiln_mesh *mesh)
         else if (missing <= MOST_TEXTURE_NOTES)
             add_notes(mesh->notes, reason.message);
     }
-    if (missing > MOST_TEXTURE_NOTES) {
-        snprintf(text, sizeof text, "%u more textures are missing", missing - MOST_TEXTURE_NOTES);
+    const uint32_t more = missing > MOST_TEXTURE_NOTES ? missing - MOST_TEXTURE_NOTES : 0;
+    if (more > 0) {
+        snprintf(text, sizeof text, "%u more %s missing", more,
+                 more == 1 ? "texture is" : "textures are");
         add_notes(mesh->notes, text);
     }
 }
