@@ -4,8 +4,9 @@
  * copy.
  *
  * A process of kiln-decode imports the file, so that a file on which the importer crashes gives an
- * error and does not end kiln. That process gets the file itself and the buffers that a glTF file
- * names, and nothing else. With a loader of NULL, any file may be opened. */
+ * error and does not end kiln. That process gets the file itself, the buffers that a glTF file
+ * names and, where materials are wanted, the files of materials that an OBJ file names, and nothing
+ * else. With a loader of NULL, any file may be opened. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_H
 #define KILN_ASSET_GEOMETRY_MESH_H
 
