@@ -115,12 +115,10 @@ static bool check_extensions(struct gltf *g)
 
 static bool refuse_version(const struct gltf *g, const char *found)
 {
-    if (strcmp(found, "1.0") == 0 || strcmp(found, "1.1") == 0)
-        found = "1";
-    return GLTF_SET(g,
-                    "the file is of glTF version %.20s; kiln reads version 2, to which Blender "
-                    "or another program converts it",
-                    found);
+    if (found[0] != '1' || (found[1] != '\0' && found[1] != '.'))
+        return GLTF_SET(g, "the file is of glTF version %.20s; kiln reads version 2", found);
+    return GLTF_SET(g, "the file is of glTF version 1; kiln reads version 2, to which the program "
+                       "gltf-pipeline of npm converts it: gltf-pipeline -i OLD -o NEW");
 }
 
 /* Checks the version that is the least for a reader to know, or that of the file. */

@@ -258,20 +258,20 @@ static bool put_instances(struct moving *m, uint32_t node, const struct gltf_ins
     return true;
 }
 
-static bool put_primitive(struct moving *m, uint32_t node, const json_t *json, bool is_first,
+static bool put_primitive(struct moving *m, uint32_t node, const json_t *json,
                           const struct gltf_instances *instances)
 {
     struct gltf *g = m->g;
+    const struct gltf_moved *moved = &m->moved[node];
     struct gltf_primitive primitive;
-    const bool skinned = g->nodes[node].skin != GLTF_NONE;
-    bool ok = gltf_read_primitive(g, json, false, skinned, &primitive);
+    bool ok = gltf_read_primitive(g, json, false, g->nodes[node].skin != GLTF_NONE, &primitive);
     const bool morphs = ok && primitive.target_count > 0 && gltf_morphs_move(g, node);
     float *weights = NULL;
     if (ok)
         weights = gltf_default_weights(g, node, primitive.target_count, &ok);
     if (weights && !morphs)
         gltf_morph(&primitive, weights);
-    if (ok && morphs && !is_first && primitive.target_count != m->moved[node].target_count)
+    if (ok && moved->part_count > 0 && (morphs ? primitive.target_count : 0) != moved->target_count)
         ok = GLTF_SET(g, "the primitives of a mesh have different numbers of morph targets");
     if (ok && primitive.triangle_count > 0)
         ok = put_instances(m, node, instances, &primitive, weights, morphs);
@@ -290,7 +290,7 @@ static bool put_mesh(struct moving *m, uint32_t node)
               (g->nodes[node].skin == GLTF_NONE || put_skin(m, g->nodes[node].skin));
     size_t i_at = 0;
     for (const json_t *i; ok && (i = gltf_item(list, i_at)); i_at++)
-        ok = put_primitive(m, node, i, m->moved[node].part_count == 0, &instances);
+        ok = put_primitive(m, node, i, &instances);
     free(instances.rows);
     return ok;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "asset/geometry/skin.h"
+#include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
 
@@ -219,6 +220,33 @@ static void creases_are_those_of_a_still_mesh(void **state)
     kiln_skin_destroy(&skin);
 }
 
+static void keep_line(void *user, enum kiln_log_level level, const char *line)
+{
+    assert_int_equal(level, KILN_LOG_WARNING);
+    snprintf(user, KILN_MESSAGE_SIZE, "%s", line);
+}
+
+/* What was changed of a file is a warning with its place in the scene. */
+static void changes_are_warnings(void **state)
+{
+    (void)state;
+    static const char scene_text[] =
+        "kiln: 1\nbackdrop:\n  objects:\n  - mesh: {file: weights-that-do-not-fit.gltf}\n";
+    char line[KILN_MESSAGE_SIZE] = "";
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    params.asset_root = KILN_SOURCE_DIR "/tests/gltf/set";
+    params.log = (struct kiln_log){keep_line, line};
+    struct kiln_scene *scene =
+        kiln_scene_parse(scene_text, sizeof scene_text - 1, "s", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    assert_string_equal(line, "s:4:18: backdrop.objects.0.mesh.file: "
+                              "'weights-that-do-not-fit.gltf': the weights of some vertices do not "
+                              "sum to 1, and are scaled so that they do");
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +255,7 @@ int main(void)
         cmocka_unit_test(bones_have_a_limit),
         cmocka_unit_test(instances_have_a_limit),
         cmocka_unit_test(creases_are_those_of_a_still_mesh),
+        cmocka_unit_test(changes_are_warnings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
