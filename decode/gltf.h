@@ -9,7 +9,7 @@
 
 #include "asset/geometry/mesh_in.h"
 #include "decode.h"
-#include "json.h"
+#include "gltf_json.h"
 #include "model.h"
 
 /* The arrays of the document that other parts refer to by number. */
@@ -26,11 +26,13 @@ enum gltf_list_name {
     GLTF_LISTS
 };
 
-/* The elements of an array, as values of the JSON. */
 struct gltf_list {
-    uint32_t *values;
+    const json_t *array;
     uint32_t count;
 };
+
+/* Stands for the number of an element that is missing. */
+#define GLTF_NONE UINT32_MAX
 
 struct gltf_bytes {
     const unsigned char *bytes; /* NULL: there are none, or not yet */
@@ -44,8 +46,8 @@ struct gltf_pose {
 };
 
 struct gltf_node {
-    uint32_t parent;       /* JSON_NONE: it has no parent */
-    uint32_t mesh, skin;   /* JSON_NONE: none */
+    uint32_t parent;       /* GLTF_NONE: it has no parent */
+    uint32_t mesh, skin;   /* GLTF_NONE: none */
     bool placed;           /* it is in the order */
     bool shown;            /* it is in the scene */
     bool needed;           /* it shows a mesh, is a joint of one, or is above such a node */
@@ -57,8 +59,8 @@ struct gltf_node {
 struct gltf {
     const struct decode_mesh *wanted;
     struct kiln_error *error;
-    char *notes; /* what is to be told to the user, a line each; KILN_MESSAGE_SIZE bytes */
-    struct json json;
+    char *notes;  /* what is to be told to the user, a line each; KILN_MESSAGE_SIZE bytes */
+    json_t *root; /* of the JSON */
     struct gltf_list lists[GLTF_LISTS];
     struct gltf_bytes chunk;    /* the binary chunk of a GLB */
     struct gltf_bytes *buffers; /* of all buffers */
@@ -74,16 +76,16 @@ struct gltf {
 
 /* ---- gltf.c ---------------------------------------------------------------------------------- */
 
-/* Returns an element of a list, or JSON_NONE. */
-uint32_t gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number);
+/* Returns an element of a list, or NULL. */
+const json_t *gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number);
 
-/* Gets a member that is the number of an element of a list. *number is JSON_NONE if there is no
+/* Gets a member that is the number of an element of a list. *number is GLTF_NONE if there is no
  * such member. It is an error if there is no such element. */
-bool gltf_reference(struct gltf *g, uint32_t object, const char *key, enum gltf_list_name list,
+bool gltf_reference(struct gltf *g, const json_t *object, const char *key, enum gltf_list_name list,
                     uint32_t *number);
 
-/* Returns an extension of an object of the document, or JSON_NONE. */
-uint32_t gltf_extension(const struct gltf *g, uint32_t object, const char *name);
+/* Returns an extension of an object of the document, or NULL. */
+const json_t *gltf_extension(const json_t *object, const char *name);
 
 /* Returns whether the file says that it cannot be read without an extension. */
 bool gltf_requires(const struct gltf *g, const char *extension);
@@ -104,8 +106,8 @@ struct gltf_view {
 
 bool gltf_find_view(struct gltf *g, uint32_t number, struct gltf_view *view);
 
-/* Returns the extension by which meshopt compresses a view, or JSON_NONE. */
-uint32_t gltf_meshopt_of(const struct gltf *g, uint32_t view);
+/* Returns the extension by which meshopt compresses a view, or NULL. */
+const json_t *gltf_meshopt_of(const struct gltf *g, uint32_t view);
 
 /* ---- gltf_accessor.c ------------------------------------------------------------------------- */
 
@@ -131,6 +133,10 @@ uint32_t *gltf_read_integers(struct gltf *g, uint32_t accessor, const char *type
 
 /* Reads the nodes, finds those of the scene and where they are. */
 bool gltf_find_nodes(struct gltf *g);
+
+/* Returns the nodes of the order, children before their parents. The caller frees them; NULL:
+ * memory is short. */
+uint32_t *gltf_children_first(struct gltf *g);
 
 /* Multiplies matrices whose last row is 0 0 0 1. */
 void gltf_multiply(const double a[3][4], const double b[3][4], double out[3][4]);
@@ -168,12 +174,13 @@ struct gltf_primitive {
 
 /* Reads a primitive of triangles. Others, and those without positions, get no triangles. A failed
  * primitive is to be finished, too. uvs, weights: whether they are wanted. */
-bool gltf_read_primitive(struct gltf *g, uint32_t json, bool uvs, bool weights,
+bool gltf_read_primitive(struct gltf *g, const json_t *json, bool uvs, bool weights,
                          struct gltf_primitive *primitive);
 void gltf_finish_primitive(struct gltf_primitive *primitive);
 
-/* Moves texture coordinates as the base colour texture of the material says (gltf_texture.c). */
-bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive);
+/* Moves texture coordinates as the base colour texture of the material says, and makes them count
+ * from the bottom of a picture (gltf_texture.c). */
+void gltf_place_uvs(const struct gltf *g, struct gltf_primitive *primitive);
 
 /* Gets the weights of morph targets by default of a node's mesh; NULL: all are 0, or failure, which
  * *ok tells. The caller frees them. count: number of targets. */
@@ -203,7 +210,7 @@ void gltf_blend(const struct kiln_skin_weights *weights, const double (*bones)[3
                 double rows[3][4]);
 
 /* Returns the determinant of a matrix. */
-double gltf_determinant(const double rows[3][4]);
+double gltf_determinant(const double m[3][4]);
 
 /* ---- gltf_still.c, gltf_moving.c, gltf_clip.c ------------------------------------------------ */
 
@@ -227,7 +234,8 @@ bool gltf_put_creases(struct gltf *g, struct gltf_piece *pieces, uint32_t count,
 
 /* Which numbers the nodes of the file have in the result, and which morph targets each has. */
 struct gltf_moved {
-    uint32_t node;                      /* JSON_NONE: it is not in the result */
+    uint32_t node;       /* GLTF_NONE: it is not in the result */
+    uint32_t first_bone; /* from 1; of its first instance; 0: it moves no part by itself */
     uint32_t first_morph, target_count; /* of its first part; the others' follow */
     uint32_t part_count;
 };
@@ -239,14 +247,14 @@ bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved,
 /* Returns whether some clip moves the weights of a node's morph targets. */
 bool gltf_morphs_move(const struct gltf *g, uint32_t node);
 
-/* Returns the extension by which Draco compresses a primitive; JSON_NONE: it has its own data. */
-uint32_t gltf_draco_of(const struct gltf *g, uint32_t primitive);
+/* Returns the extension by which Draco compresses a primitive; NULL: it has its own data. */
+const json_t *gltf_draco_of(const struct gltf *g, const json_t *primitive);
 
 /* ---- draco.c --------------------------------------------------------------------------------- */
 
 /* Reads the geometry of a primitive that Draco compresses, but for its morph targets. */
-bool gltf_read_draco(struct gltf *g, uint32_t json, uint32_t extension, bool uvs, bool weights,
-                     struct gltf_primitive *primitive);
+bool gltf_read_draco(struct gltf *g, const json_t *json, const json_t *extension, bool uvs,
+                     bool weights, struct gltf_primitive *primitive);
 
 /* Gives a primitive the strongest influences out of `sets` sets of four joints and weights. */
 bool gltf_put_weights(struct gltf *g, struct gltf_primitive *primitive, uint32_t *const joints[],

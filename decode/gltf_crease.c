@@ -34,7 +34,9 @@ static bool place_bones(struct creases *c)
     const struct kiln_skin_result *skin = &c->result->skin;
     double(*nodes)[3][4] = malloc((size_t)skin->node_count * sizeof *nodes);
     c->bones = malloc(((size_t)skin->bone_count + 1) * sizeof *c->bones);
-    const bool ok = (nodes && c->bones) || decode_out_of_memory(c->g->error);
+    const bool ok = nodes && c->bones;
+    if (!ok)
+        decode_out_of_memory(c->g->error);
     for (uint32_t i = 0; ok && i < skin->node_count; i++) {
         mat4 rest;
         double own[3][4];
@@ -187,8 +189,10 @@ static bool take_memory(struct creases *c)
     c->next = malloc(count * sizeof *c->next);
     c->heads = calloc((size_t)c->result->vertex_count + 1, sizeof *c->heads);
     c->corners = calloc(3 * (size_t)c->result->triangle_count + 1, sizeof *c->corners);
-    return (c->vertices && c->weights && c->sources && c->next && c->heads && c->corners) ||
-           decode_out_of_memory(c->g->error);
+    const bool ok = c->vertices && c->weights && c->sources && c->next && c->heads && c->corners;
+    if (!ok)
+        decode_out_of_memory(c->g->error);
+    return ok;
 }
 
 static bool divide(struct creases *c, struct gltf_piece *pieces, uint32_t count)

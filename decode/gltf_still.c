@@ -15,10 +15,42 @@ struct still {
     size_t mesh_capacity, part_capacity, triangle_count;
     /* Of each mesh of the file, where its primitives are among the model's meshes, from 1. */
     size_t *made;
+    uint32_t *ranks;       /* of the materials of the file; the last: of none */
     double (*bones)[3][4]; /* of the skin of the node at hand, to the file's space; NULL: none */
     uint32_t bone_count;
     bool placed; /* the bones have placed the primitive at hand */
 };
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+/* Ranks the materials by their first use, that of a node's children before its own. The triangles
+ * of a surface are ordered so since kiln's first version, and states of particles depend on it. */
+static bool rank_materials(struct still *s)
+{
+    struct gltf *g = s->g;
+    const uint32_t materials = g->lists[GLTF_MATERIALS].count;
+    uint32_t next = 0, number = 0;
+    uint32_t *nodes = gltf_children_first(g);
+    s->ranks = nodes ? malloc(((size_t)materials + 1) * sizeof *s->ranks) : NULL;
+    if (!s->ranks) {
+        free(nodes);
+        return decode_out_of_memory(g->error);
+    }
+    for (uint32_t i = 0; i <= materials; i++)
+        s->ranks[i] = materials;
+    for (uint32_t i = 0; i < g->order_count; i++) {
+        const json_t *mesh = gltf_element(g, GLTF_MESHES, g->nodes[nodes[i]].mesh);
+        const json_t *list = gltf_member(mesh, "primitives");
+        size_t p_at = 0;
+        for (const json_t *p; (p = gltf_item(list, p_at)); p_at++) {
+            if (gltf_index(gltf_member(p, "material"), &number) && number < materials &&
+                s->ranks[number] == materials)
+                s->ranks[number] = next++;
+        }
+    }
+    free(nodes);
+    return true;
+}
 
 /* ---- growing --------------------------------------------------------------------------------- */
 
@@ -39,7 +71,7 @@ static bool add_mesh(struct still *s, struct gltf_primitive *from, size_t *numbe
                                                         .normals = from->normals,
                                                         .uvs = from->uvs,
                                                         .triangles = from->triangles,
-                                                        .material = from->material};
+                                                        .material = s->ranks[from->material]};
     from->positions = from->normals = NULL;
     from->uvs = NULL;
     from->triangles = NULL;
@@ -137,7 +169,7 @@ static bool place_by_bones(struct still *s, struct gltf_primitive *primitive)
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-static bool make_mesh(struct still *s, uint32_t node, uint32_t json, size_t *number)
+static bool make_mesh(struct still *s, uint32_t node, const json_t *json, size_t *number)
 {
     struct gltf *g = s->g;
     struct gltf_primitive primitive;
@@ -161,8 +193,7 @@ static bool make_mesh(struct still *s, uint32_t node, uint32_t json, size_t *num
 static bool is_shared(const struct still *s, uint32_t node)
 {
     const struct gltf *g = s->g;
-    return !s->bones &&
-           json_member(&g->json, g->lists[GLTF_NODES].values[node], "weights") == JSON_NONE;
+    return !s->bones && gltf_member(gltf_element(g, GLTF_NODES, node), "weights") == NULL;
 }
 
 static bool place_mesh(struct still *s, uint32_t node, const struct gltf_instances *instances,
@@ -184,12 +215,12 @@ static bool add_primitives(struct still *s, uint32_t node, const struct gltf_ins
 {
     struct gltf *g = s->g;
     const uint32_t mesh = g->nodes[node].mesh;
-    const uint32_t list = json_member(&g->json, g->lists[GLTF_MESHES].values[mesh], "primitives");
+    const json_t *list = gltf_member(gltf_element(g, GLTF_MESHES, mesh), "primitives");
     const bool shared = is_shared(s, node);
     size_t next = shared ? s->made[mesh] : 0;
     const bool is_made = next > 0;
-    for (uint32_t i = json_first(&g->json, list); i != JSON_NONE;
-         i = json_after(&g->json, list, i)) {
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(list, i_at)); i_at++) {
         size_t number = next - 1;
         if (!is_made && !make_mesh(s, node, i, &number))
             return false;
@@ -207,7 +238,7 @@ static bool add_node(struct still *s, uint32_t node)
     struct gltf *g = s->g;
     struct gltf_instances instances = {.count = 0};
     bool ok = gltf_find_instances(g, node, &instances) &&
-              (g->nodes[node].skin == JSON_NONE || find_bones(s, node));
+              (g->nodes[node].skin == GLTF_NONE || find_bones(s, node));
     ok = ok && add_primitives(s, node, &instances);
     free(instances.rows);
     free(s->bones);
@@ -220,12 +251,16 @@ bool gltf_still(struct gltf *g, struct decode_model *model)
 {
     struct still s = {.g = g, .model = model};
     s.made = calloc((size_t)g->lists[GLTF_MESHES].count + 1, sizeof *s.made);
-    bool ok = s.made || decode_out_of_memory(g->error);
+    bool ok = s.made != NULL;
+    if (!ok)
+        decode_out_of_memory(g->error);
+    ok = ok && rank_materials(&s);
     for (uint32_t i = 0; ok && i < g->order_count; i++) {
         const struct gltf_node *node = &g->nodes[g->order[i]];
-        if (node->shown && node->mesh != JSON_NONE)
+        if (node->shown && node->mesh != GLTF_NONE)
             ok = add_node(&s, g->order[i]);
     }
     free(s.made);
+    free(s.ranks);
     return ok;
 }

@@ -1,6 +1,7 @@
 /* This file moves the texture coordinates of a primitive to where its base colour texture is looked
- * up (KHR_texture_transform). Files with integers as coordinates depend on it: the transform gives
- * them their scale. */
+ * up (KHR_texture_transform), and makes them count from the bottom of a picture, as those of other
+ * formats do; glTF counts from the top. Files with integers as coordinates depend on the transform,
+ * which gives them their scale. */
 #include <stddef.h>
 
 #include "gltf.h"
@@ -24,41 +25,46 @@ static void find_sine(double angle, double *sine, double *cosine)
     *cosine = part == 0 ? c : part == 1 ? -s : part == 2 ? -c : s;
 }
 
-static double number_of(const struct gltf *g, uint32_t value, double otherwise)
+static double number_of(const json_t *value, double otherwise)
 {
     double number = otherwise;
-    return json_number(&g->json, value, &number) ? number : otherwise;
+    return gltf_number(value, &number) ? number : otherwise;
 }
 
 /* Gets a pair of numbers. */
-static void get_pair(const struct gltf *g, uint32_t array, double otherwise, double pair[2])
+static void get_pair(const json_t *array, double otherwise, double pair[2])
 {
-    const uint32_t first = json_first(&g->json, array);
-    const uint32_t second = first == JSON_NONE ? JSON_NONE : json_after(&g->json, array, first);
-    pair[0] = number_of(g, first, otherwise);
-    pair[1] = number_of(g, second, otherwise);
+    for (size_t i = 0; i < 2; i++)
+        pair[i] = number_of(gltf_item(array, i), otherwise);
 }
 
-bool gltf_place_uvs(struct gltf *g, struct gltf_primitive *primitive)
+static void transform(const json_t *json, struct gltf_primitive *primitive)
 {
-    const uint32_t material = gltf_element(g, GLTF_MATERIALS, primitive->material);
-    const uint32_t looks = json_member(&g->json, material, "pbrMetallicRoughness");
-    const uint32_t texture = json_member(&g->json, looks, "baseColorTexture");
-    const uint32_t transform = gltf_extension(g, texture, "KHR_texture_transform");
-    uint32_t set = json_member(&g->json, transform, "texCoord");
-    if (set == JSON_NONE)
-        set = json_member(&g->json, texture, "texCoord");
-    if (transform == JSON_NONE || !primitive->uvs || number_of(g, set, 0.0) != 0.0)
-        return true;
     double offset[2], scale[2], sine, cosine;
-    get_pair(g, json_member(&g->json, transform, "offset"), 0.0, offset);
-    get_pair(g, json_member(&g->json, transform, "scale"), 1.0, scale);
-    find_sine(number_of(g, json_member(&g->json, transform, "rotation"), 0.0), &sine, &cosine);
+    get_pair(gltf_member(json, "offset"), 0.0, offset);
+    get_pair(gltf_member(json, "scale"), 1.0, scale);
+    find_sine(number_of(gltf_member(json, "rotation"), 0.0), &sine, &cosine);
     for (size_t i = 0; i < primitive->vertex_count; i++) {
         float *uv = primitive->uvs[i];
         const double u = scale[0] * (double)uv[0], v = scale[1] * (double)uv[1];
         uv[0] = (float)(cosine * u + sine * v + offset[0]);
         uv[1] = (float)(cosine * v - sine * u + offset[1]);
     }
-    return true;
+}
+
+void gltf_place_uvs(const struct gltf *g, struct gltf_primitive *primitive)
+{
+    const json_t *material = gltf_element(g, GLTF_MATERIALS, primitive->material);
+    const json_t *looks = gltf_member(material, "pbrMetallicRoughness");
+    const json_t *texture = gltf_member(looks, "baseColorTexture");
+    const json_t *extension = gltf_extension(texture, "KHR_texture_transform");
+    const json_t *set = gltf_member(extension, "texCoord");
+    if (!set)
+        set = gltf_member(texture, "texCoord");
+    if (!primitive->uvs)
+        return;
+    if (extension && number_of(set, 0.0) == 0.0)
+        transform(extension, primitive);
+    for (size_t i = 0; i < primitive->vertex_count; i++)
+        primitive->uvs[i][1] = (float)(1.0 - (double)primitive->uvs[i][1]);
 }

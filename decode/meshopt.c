@@ -53,7 +53,7 @@ struct block {
  * a byte. */
 static void read_bits(struct input *in, unsigned bits, unsigned char out[GROUP])
 {
-    unsigned char packed[GROUP];
+    unsigned char packed[GROUP] = {0};
     const unsigned per_byte = 8 / bits, mask = (1u << bits) - 1;
     for (unsigned i = 0; i < GROUP / per_byte; i++)
         packed[i] = (unsigned char)next_byte(in);

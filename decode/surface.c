@@ -267,7 +267,7 @@ static bool find_normals(struct surface *s)
         is_needed = !s->corners[i].has_normal;
     if (!is_needed)
         return true;
-    struct table table;
+    struct table table = {.size = 0};
     const bool made = make_table(&table, s->corner_count);
     uint32_t *next = malloc(s->corner_count * sizeof *next);
     uint32_t *first = malloc(s->corner_count * sizeof *first);
@@ -327,10 +327,12 @@ static bool join(struct surface *s, struct table *table, const struct decode_cor
 static bool put_triangles(struct surface *s)
 {
     struct kiln_mesh_result *result = s->result;
-    struct table table;
+    struct table table = {.size = 0};
     const size_t most =
         s->corner_count < KILN_MAX_MESH_VERTICES ? s->corner_count : KILN_MAX_MESH_VERTICES;
-    bool ok = make_table(&table, most) || decode_out_of_memory(s->error);
+    bool ok = make_table(&table, most);
+    if (!ok)
+        decode_out_of_memory(s->error);
     for (size_t i = 0; ok && i < s->corner_count; i++)
         ok = join(s, &table, &s->corners[i], &result->triangles[i / 3][i % 3]);
     result->triangle_count = (uint32_t)(s->corner_count / 3);

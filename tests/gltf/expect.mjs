@@ -1,10 +1,12 @@
 // Writes what three.js reads of glTF files, for compare.c: `node expect.mjs FILE... FOLDER` writes FOLDER/NAME.expect
 // for each file, where NAME is FILE with underscores for slashes, and prints the files that gltf-validator or three.js refuse.
 //
+// Texture coordinates count from the bottom of a picture, as kiln's do.
+//
 // An .expect is a list of little-endian numbers of 32 bits: a mark, the number of triangles, whether it has texture
 // coordinates; of each corner position, normal and texture coordinates (NaN: there is none); the number of clips; of
 // each its length and three times, and for each time position and normal of each corner. The triangles of the mesh
-// at rest are in the order of their materials, those of a clip in the order of nodes, near the root first, which are
+// at rest are in the order in which their materials are used first, in children before their parents, those of a clip in the order of nodes, near the root first, which are
 // kiln's orders. A mirrored triangle has its corners turned, so that its front is in front.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -101,10 +103,26 @@ function meshesOf(gltf, nearFirst) {
 }
 
 function materialOf(gltf, mesh) {
-    const json = gltf.parser.json, of = gltf.parser.associations.get(mesh);
-    // An instanced mesh is only known by its node; those of the tests have one primitive.
-    const { meshes, primitives } = of.meshes === undefined ? { meshes: json.nodes[of.nodes].mesh, primitives: 0 } : of;
-    return json.meshes[meshes].primitives[primitives].material ?? (json.materials ?? []).length;
+    const json = gltf.parser.json, known = gltf.parser.associations.get(mesh);
+    if (known?.meshes !== undefined)
+        return json.meshes[known.meshes].primitives[known.primitives].material;
+    // An instanced mesh is only known by its node, of which it is a child if there are several.
+    const node = known ? mesh : mesh.parent, of = json.nodes[gltf.parser.associations.get(node).nodes].mesh;
+    const number = known ? 0 : primitivesOf(gltf, node).indexOf(mesh);
+    return json.meshes[of].primitives[number].material;
+}
+
+// The materials of a scene in the order in which they are used first.
+function materialsOf(gltf) {
+    const json = gltf.parser.json, found = [];
+    const visit = (node) => {
+        (node.children ?? []).forEach((child) => visit(json.nodes[child]));
+        for (const { material } of json.meshes?.[node.mesh]?.primitives ?? [])
+            if (material !== undefined && !found.includes(material))
+                found.push(material);
+    };
+    (json.scenes?.[json.scene].nodes ?? []).forEach((root) => visit(json.nodes[root]));
+    return found;
 }
 
 // The matrix that places a vertex of a mesh.
@@ -149,7 +167,7 @@ function uvOf(mesh, vertex) {
             map.updateMatrix();
         out.applyMatrix3(map.matrix);
     }
-    return [out.x, out.y];
+    return [out.x, 1 - out.y];
 }
 
 function cornersOf(mesh, withUvs) {
@@ -203,8 +221,10 @@ function pose(gltf, clip, seconds) {
 
 function expect(gltf) {
     gltf.scene.updateMatrixWorld(true);
-    const meshes = meshesOf(gltf, false).map((mesh, i) => ({ mesh, order: i, material: materialOf(gltf, mesh) }));
-    meshes.sort((a, b) => a.material - b.material || a.order - b.order);
+    const materials = [...materialsOf(gltf), undefined];
+    const meshes = meshesOf(gltf, false).map((mesh, i) => ({ mesh, order: i,
+        rank: materials.indexOf(materialOf(gltf, mesh)) }));
+    meshes.sort((a, b) => a.rank - b.rank || a.order - b.order);
     const corners = meshes.flatMap(({ mesh }) => cornersOf(mesh, true));
     const uvs = meshes.every(({ mesh }) => mesh.geometry.attributes.uv);
     const words = [MARK, corners.length / 24, uvs ? 1 : 0], clips = gltf.animations.slice(0, MOST_CLIPS);

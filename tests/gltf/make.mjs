@@ -127,6 +127,12 @@ add('materials-in-another-order', (b) => {
     b.node({ mesh: b.mesh(primitive(undefined, triangles.slice(0, 9)), primitive(1, triangles.slice(9, 18)),
         primitive(0, triangles.slice(18))) });
 });
+add('materials-of-children', (b) => {
+    b.json.materials = [{ name: 'one' }, { name: 'two' }];
+    const meshes = [0, 1].map((material) => b.mesh({ ...box(b), material }));
+    const child = b.node({ mesh: meshes[1], translation: [0, 3, 0] }, false);
+    b.node({ mesh: meshes[0], children: [child] });
+});
 add('texture-transform', (b) => {
     b.uses('KHR_texture_transform');
     b.json.images = [{ uri: 'data:image/png;base64,' + 'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNg' +

@@ -300,8 +300,8 @@ static void numbers_need_no_zero_before_their_point(void **state)
 }
 
 #define FIRST_GLTF                                                                                 \
-    "the file is of glTF version 1; kiln reads version 2, to which Blender or another program "    \
-    "converts it"
+    "the file is of glTF version 1; kiln reads version 2, to which the program gltf-pipeline of "  \
+    "npm converts it: gltf-pipeline -i OLD -o NEW"
 
 #define NO_MESH                                                                                    \
     "the name is not that of a mesh; allowed are OBJ, glTF, GLB, PLY or STL files (.obj, .gltf, "  \
@@ -325,11 +325,13 @@ static void nonsense_is_refused(void **state)
                 "the mesh has no triangle with an area");
     refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", "the JSON is cut short");
     refuse_text("{\"asset\": {\"version\": \"2.0\"},\n\n nodes: []}", "yaml.gltf",
-                "line 3 of the JSON is broken");
+                "line 3 of the JSON is broken: string or '}' expected near 'nodes'");
     refuse_text("{}", "none.gltf",
                 "the file does not say of which version of glTF it is: 'asset.version' is missing; "
                 "allowed is \"2.0\"");
     refuse_text("{\"asset\": {\"version\": \"1.0\"}}", "first.gltf", FIRST_GLTF);
+    refuse_text("{\"asset\": {\"version\": \"3.0\"}}", "later.gltf",
+                "the file is of glTF version 3.0; kiln reads version 2");
     refuse_text("{\"meshes\": {\"mesh\": {}}}", "oldest.gltf", FIRST_GLTF);
     refuse("glTF\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 20, "first.glb", FIRST_GLTF);
 }

@@ -12,7 +12,6 @@
 #include "scene/scene.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
-#include "support/posed.h"
 #include "support/rig.h"
 
 #define EIGHT(text) text text text text text text text text
@@ -76,7 +75,7 @@ static void expect_pose(const struct rig *rig, const struct kiln_skin *skin, dou
         key++;
     const double t = (seconds - (double)rig->times[key]) /
                      ((double)rig->times[key + 1] - (double)rig->times[key]);
-    test_pose(skin, 0, (float)seconds, vertices);
+    kiln_skin_pose(skin, 0, (float)seconds, vertices);
     for (int i = 0; i < VERTICES; i++) {
         const float *p = rig->positions[i];
         const double at[3] = {(double)p[0], (double)p[1], (double)p[2]};
@@ -125,7 +124,7 @@ static void two_bones_in_closed_form(void **state)
     for (int i = 0; i <= 40; i++) {
         float vertices[VERTICES][6];
         const double seconds = i / 40.0, angle = fmin(seconds / 0.5, 1.0) * quarter;
-        test_pose(skin, 0, (float)seconds, vertices);
+        kiln_skin_pose(skin, 0, (float)seconds, vertices);
         assert_true(fabs((double)vertices[0][0] + sin(angle)) < 1e-6);
         assert_true(fabs((double)vertices[0][1] - (1.0 + cos(angle))) < 1e-6);
         assert_true(fabs((double)vertices[1][0] + 0.25 * sin(angle)) < 1e-6);
@@ -148,7 +147,7 @@ static void normals_turn_along(void **state)
     struct kiln_mesh *mesh = kiln_mesh_copy(kiln_skin_mesh(skin));
     assert_non_null(mesh);
     for (int i = 0; i < 20; i++) {
-        test_pose_mesh(skin, 0, (float)i * 0.1f, mesh);
+        kiln_skin_pose_mesh(skin, 0, (float)i * 0.1f, mesh);
         for (uint32_t t = 0; t < TRIANGLES; t++) {
             const float *a = mesh->vertices[mesh->triangles[t][0]];
             const float *b = mesh->vertices[mesh->triangles[t][1]];
@@ -172,12 +171,12 @@ static void loops_join(void **state)
     const struct rig rig = waving_rig();
     struct kiln_skin *skin = parse(&rig, &SOUND);
     float start[VERTICES][6], end[VERTICES][6];
-    test_pose(skin, 0, 0.0f, start);
-    test_pose(skin, 0, 2.0f, end);
+    kiln_skin_pose(skin, 0, 0.0f, start);
+    kiln_skin_pose(skin, 0, 2.0f, end);
     assert_memory_equal(start, end, sizeof start);
-    test_pose(skin, 0, -1.0f, end);
+    kiln_skin_pose(skin, 0, -1.0f, end);
     assert_memory_equal(start, end, sizeof start);
-    test_pose(skin, 0, 1e6f, end);
+    kiln_skin_pose(skin, 0, 1e6f, end);
     assert_memory_equal(start, end, sizeof start);
     kiln_skin_destroy(&skin);
 
@@ -211,7 +210,7 @@ static void bits_are_known(void **state)
     uint32_t sum = 2166136261u;
     for (int i = 0; i < 50; i++) {
         float vertices[VERTICES][6];
-        test_pose(skin, 0, (float)i / 32.0f, vertices);
+        kiln_skin_pose(skin, 0, (float)i / 32.0f, vertices);
         const unsigned char *bytes = (const unsigned char *)vertices;
         for (size_t k = 0; k < sizeof vertices; k++)
             sum = (sum ^ bytes[k]) * 16777619u;
@@ -236,7 +235,7 @@ static void parts_follow_their_nodes(void **state)
         "7, \"interpolation\": \"%s\"}]}],";
     struct kiln_skin *skin = parse(&rig, &variant);
     float vertices[VERTICES][6];
-    test_pose(skin, 0, 0.75f, vertices);
+    kiln_skin_pose(skin, 0, 0.75f, vertices);
     for (int i = 0; i < VERTICES; i++) {
         assert_true(fabsf(vertices[i][0] - rig.positions[i][0] - 1.5f) < 1e-6f);
         assert_true(vertices[i][1] == rig.positions[i][1]);
@@ -248,9 +247,9 @@ static void parts_follow_their_nodes(void **state)
 static float way_of(const struct kiln_skin *skin, uint32_t vertex)
 {
     float vertices[VERTICES][6];
-    test_pose(skin, 0, 1.0f, vertices);
+    kiln_skin_pose(skin, 0, 1.0f, vertices);
     const float moved = vertices[vertex][0];
-    test_pose(skin, 0, 0.0f, vertices);
+    kiln_skin_pose(skin, 0, 0.0f, vertices);
     return moved - vertices[vertex][0];
 }
 
@@ -318,7 +317,7 @@ static void mirrored_parts_face_outwards(void **state)
     struct kiln_skin *mirrored = parse(&rig, &variant);
     const struct kiln_mesh *from = kiln_skin_mesh(plain), *to = kiln_skin_mesh(mirrored);
     float posed[VERTICES][6];
-    test_pose(mirrored, 0, 0.75f, posed);
+    kiln_skin_pose(mirrored, 0, 0.75f, posed);
     for (int i = 0; i < VERTICES; i++) {
         for (int c = 0; c < 6; c++) {
             const float expected = c % 3 == 0 ? -from->vertices[i][c] : from->vertices[i][c];
@@ -359,7 +358,7 @@ static void mirrored_parts_turn(void **state)
                      "\"interpolation\": \"%s\"}]}],";
         struct kiln_skin *skin = parse(&rig, &variant);
         float posed[VERTICES][6];
-        test_pose(skin, 0, 0.75f, posed);
+        kiln_skin_pose(skin, 0, 0.75f, posed);
         for (int i = 0; i < VERTICES; i++) {
             const float *p = rig.positions[i];
             assert_true(fabsf(posed[i][0] - (turned ? p[0] : -p[0])) < 1e-5f);
@@ -550,8 +549,8 @@ static void feet_that_stand_do_not_slide(void **state)
     for (float seconds = 0.0f; seconds + dt < length; seconds += 0.05f) {
         uint32_t standing = 0;
         double slip = 0.0;
-        test_pose_mesh(skin, 0, seconds, now);
-        test_pose_mesh(skin, 0, seconds + dt, then);
+        kiln_skin_pose_mesh(skin, 0, seconds, now);
+        kiln_skin_pose_mesh(skin, 0, seconds + dt, then);
         if (!(now->min[1] > -0.003f && now->min[1] < 0.012f && now->max[1] < 1.78f))
             fail_msg("at %g s, it reaches from %g to %g m", (double)seconds, (double)now->min[1],
                      (double)now->max[1]);

@@ -11,7 +11,6 @@
 #include "support/cmocka.h"
 #include "support/errors.h"
 #include "support/folders.h"
-#include "support/posed.h"
 #include "support/simulation.h"
 #include "support/thrown.h"
 
@@ -481,7 +480,7 @@ static void a_figure_pushes_whom_it_walks_into(void **state)
     const float time_s = kiln_scene_time(&fixture.scene, 50);
     struct kiln_mesh *mesh = kiln_mesh_copy(kiln_skin_mesh(skin));
     assert_non_null(mesh);
-    test_pose_mesh(skin, 0, kiln_scene_animation_s(&walker->animation, time_s), mesh);
+    kiln_skin_pose_mesh(skin, 0, kiln_scene_animation_s(&walker->animation, time_s), mesh);
     uint32_t pushed = 0, inside = 0;
     for (uint32_t i = 0; i < 600; i++) {
         const struct kiln_particle p = simulation_records(&run)[i];

@@ -167,8 +167,10 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
     memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
     snprintf(mesh->notes, sizeof mesh->notes, "%s", result->notes);
-    for (char *c = mesh->notes; *c; c++)
-        *c = (unsigned char)*c >= ' ' || *c == '\n' ? *c : ' ';
+    for (char *c = mesh->notes; *c; c++) {
+        if ((unsigned char)*c < ' ' && *c != '\n')
+            *c = ' ';
+    }
     kiln_mesh_find_bounds(mesh);
     return mesh;
 }

@@ -5,12 +5,20 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "asset/geometry/mesh_in.h"
 #include "base/error.h"
+
+/* The memory in which a pose is computed: with thousands of nodes, too large for the stack. */
+struct scratch {
+    pthread_mutex_t mutex;
+    mat4 *nodes, *bones;
+    float *morphs; /* weights */
+};
 
 struct kiln_skin {
     struct kiln_mesh *mesh; /* the mesh at rest */
@@ -25,11 +33,7 @@ struct kiln_skin {
     struct kiln_skin_morph *morphs;
     struct kiln_skin_morph_channel *morph_channels;
     struct kiln_skin_delta *deltas;
-};
-
-struct kiln_skin_scratch {
-    mat4 *nodes, *bones;
-    float *morphs; /* weights */
+    struct scratch *scratch;
 };
 
 /* ---- between keys ---------------------------------------------------------------------------- */
@@ -115,7 +119,7 @@ static void compose(vec4 move, versor turn, vec4 scale, mat4 out)
 
 /* Finds each bone's matrix from vertices to the file's space. A clip, if any, moves its nodes. */
 static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_clip *clip,
-                        float seconds, const struct kiln_skin_scratch *scratch)
+                        float seconds, const struct scratch *scratch)
 {
     mat4 *nodes = scratch->nodes;
     for (uint32_t i = 0; i < skin->node_count; i++)
@@ -184,7 +188,7 @@ static void blend(const struct kiln_skin_weights *weights, mat4 *bones, mat4 out
 }
 
 /* Reverses the triangles of mirrored parts, which would otherwise show their inside. */
-static void turn_mirrored(struct kiln_skin *skin, const struct kiln_skin_scratch *scratch)
+static void turn_mirrored(struct kiln_skin *skin, const struct scratch *scratch)
 {
     mat4 m;
     place_bones(skin, NULL, 0.0f, scratch);
@@ -225,7 +229,7 @@ static void morph(const struct kiln_skin *skin, const struct kiln_skin_clip *cli
 }
 
 static void pose(const struct kiln_skin *skin, const struct kiln_skin_clip *clip, float seconds,
-                 const struct kiln_skin_scratch *scratch, float (*vertices)[6])
+                 const struct scratch *scratch, float (*vertices)[6])
 {
     mat4 m;
     place_bones(skin, clip, seconds, scratch);
@@ -241,40 +245,18 @@ static void pose(const struct kiln_skin *skin, const struct kiln_skin_clip *clip
     }
 }
 
-struct kiln_skin_scratch *kiln_skin_scratch_create(const struct kiln_skin *skin)
+void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
+                    float (*vertices)[6])
 {
-    struct kiln_skin_scratch *scratch = calloc(1, sizeof *scratch);
-    if (!scratch)
-        return NULL;
-    scratch->nodes = calloc(skin->node_count, sizeof *scratch->nodes);
-    scratch->bones = calloc(skin->bone_count, sizeof *scratch->bones);
-    scratch->morphs = calloc((size_t)skin->morph_count + 1, sizeof *scratch->morphs);
-    if (!scratch->nodes || !scratch->bones || !scratch->morphs)
-        kiln_skin_scratch_destroy(&scratch);
-    return scratch;
+    pthread_mutex_lock(&skin->scratch->mutex);
+    pose(skin, &skin->clips[clip], seconds, skin->scratch, vertices);
+    pthread_mutex_unlock(&skin->scratch->mutex);
 }
 
-void kiln_skin_scratch_destroy(struct kiln_skin_scratch **scratch)
+void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seconds,
+                         struct kiln_mesh *mesh)
 {
-    if (!*scratch)
-        return;
-    free((*scratch)->nodes);
-    free((*scratch)->bones);
-    free((*scratch)->morphs);
-    free(*scratch);
-    *scratch = NULL;
-}
-
-void kiln_skin_pose(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch, uint32_t clip,
-                    float seconds, float (*vertices)[6])
-{
-    pose(skin, &skin->clips[clip], seconds, scratch, vertices);
-}
-
-void kiln_skin_pose_mesh(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch,
-                         uint32_t clip, float seconds, struct kiln_mesh *mesh)
-{
-    kiln_skin_pose(skin, scratch, clip, seconds, mesh->vertices);
+    kiln_skin_pose(skin, clip, seconds, mesh->vertices);
     kiln_mesh_find_bounds(mesh);
 }
 
@@ -347,6 +329,36 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     return skin;
 }
 
+static void destroy_scratch(struct scratch *scratch)
+{
+    if (!scratch)
+        return;
+    pthread_mutex_destroy(&scratch->mutex);
+    free(scratch->nodes);
+    free(scratch->bones);
+    free(scratch->morphs);
+    free(scratch);
+}
+
+static struct scratch *create_scratch(const struct kiln_skin *skin)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    if (!scratch)
+        return NULL;
+    if (pthread_mutex_init(&scratch->mutex, NULL) != 0) {
+        free(scratch);
+        return NULL;
+    }
+    scratch->nodes = calloc(skin->node_count, sizeof *scratch->nodes);
+    scratch->bones = calloc(skin->bone_count, sizeof *scratch->bones);
+    scratch->morphs = calloc((size_t)skin->morph_count + 1, sizeof *scratch->morphs);
+    if (!scratch->nodes || !scratch->bones || !scratch->morphs) {
+        destroy_scratch(scratch);
+        return NULL;
+    }
+    return scratch;
+}
+
 /* Names go into messages, so control characters are replaced. */
 static void clean_names(struct kiln_skin *skin)
 {
@@ -362,17 +374,18 @@ static void clean_names(struct kiln_skin *skin)
 static struct kiln_skin *make(const struct kiln_skin_result *r, struct kiln_mesh *mesh)
 {
     struct kiln_skin *skin = copy(r, mesh);
-    struct kiln_skin_scratch *scratch = skin ? kiln_skin_scratch_create(skin) : NULL;
-    if (!scratch) {
+    if (!skin)
+        return NULL;
+    skin->scratch = create_scratch(skin);
+    if (!skin->scratch) {
         kiln_skin_destroy(&skin);
         return NULL;
     }
     clean_names(skin);
     normalize(skin);
-    turn_mirrored(skin, scratch);
-    pose(skin, NULL, 0.0f, scratch, mesh->vertices);
+    turn_mirrored(skin, skin->scratch);
+    pose(skin, NULL, 0.0f, skin->scratch, mesh->vertices);
     kiln_mesh_find_bounds(mesh);
-    kiln_skin_scratch_destroy(&scratch);
     return skin;
 }
 
@@ -404,6 +417,7 @@ void kiln_skin_destroy(struct kiln_skin **skin)
     free((*skin)->morphs);
     free((*skin)->morph_channels);
     free((*skin)->deltas);
+    destroy_scratch((*skin)->scratch);
     free(*skin);
     *skin = NULL;
 }

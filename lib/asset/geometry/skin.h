@@ -8,12 +8,13 @@
 
 enum {
     KILN_MAX_SKIN_NODES = 4096 + 1, /* those of a file, and a root of them */
-    KILN_MAX_SKIN_BONES = 1024,
-    KILN_SKIN_INFLUENCES = 4, /* the most bones that move one vertex */
-    KILN_MAX_CLIPS = 64,
+    KILN_MAX_SKIN_JOINTS = 1024,    /* of one skin of a file */
+    KILN_MAX_SKIN_BONES = 8192, /* joints of all skins, and nodes or instances that move parts */
+    KILN_SKIN_INFLUENCES = 4,   /* the most bones that move one vertex */
+    KILN_MAX_CLIPS = 256,
     KILN_MAX_CLIP_NAME = 64, /* bytes of a name, including the zero at its end */
-    KILN_MAX_CLIP_CHANNELS = 1 << 14,
-    KILN_MAX_CLIP_KEYS = 1 << 19,   /* keys of all clips of a file */
+    KILN_MAX_CLIP_CHANNELS = 1 << 15,
+    KILN_MAX_CLIP_KEYS = 1 << 20,   /* keys of all clips of a file */
     KILN_MAX_SKIN_MORPHS = 4096,    /* morph targets whose weights clips move */
     KILN_MAX_CLIP_MORPHS = 1 << 14, /* such targets of all clips together */
     KILN_MAX_SKIN_DELTAS = 1 << 22, /* vertices of all such targets */
@@ -46,20 +47,14 @@ const char *kiln_skin_clip_name(const struct kiln_skin *skin, uint32_t clip);
 /* Returns the length of a clip, from 0 to its last key, s. */
 float kiln_skin_clip_length(const struct kiln_skin *skin, uint32_t clip);
 
-/* Memory in which poses of a skin are computed, by one thread at a time. NULL when memory is short.
- * The caller destroys it. */
-struct kiln_skin_scratch;
-struct kiln_skin_scratch *kiln_skin_scratch_create(const struct kiln_skin *skin);
-void kiln_skin_scratch_destroy(struct kiln_skin_scratch **scratch);
-
 /* Computes position and unit normal of every vertex of kiln_skin_mesh, in units of the file, at a
  * moment of a clip. Before 0 and after the length, the pose stays that of the first and the last
- * moment. */
-void kiln_skin_pose(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch, uint32_t clip,
-                    float seconds, float (*vertices)[6]);
+ * moment. Any threads may call it at once; those that pose the same skin wait for each other. */
+void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
+                    float (*vertices)[6]);
 
 /* Writes a pose into the vertices of a mesh with as many vertices, and updates its bounds. */
-void kiln_skin_pose_mesh(const struct kiln_skin *skin, struct kiln_skin_scratch *scratch,
-                         uint32_t clip, float seconds, struct kiln_mesh *mesh);
+void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seconds,
+                         struct kiln_mesh *mesh);
 
 #endif

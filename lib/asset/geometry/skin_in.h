@@ -2,7 +2,7 @@
  * decode/gltf_moving.c fills them, mesh_in.h's arrays carry them, and kiln_skin_take (skin.c)
  * checks and copies them. skin.c then keeps these same structs to pose the mesh.
  *
- * Numbers cross the socket as they lie in memory, so these structs hold no pointers. */
+ * Numbers cross the socket as they lie in memory, so the elements of arrays hold no pointers. */
 #ifndef KILN_ASSET_GEOMETRY_SKIN_IN_H
 #define KILN_ASSET_GEOMETRY_SKIN_IN_H
 

@@ -99,8 +99,8 @@ enum kiln_decode_what {
      * kiln_mesh_visit_arrays lists them. */
     KILN_DECODE_MESH_MADE,
 
-    /* Only a process of another kind can decode the picture: one of kind KILN_DECODE_OPENEXR an
-     * EXR, one of kind KILN_DECODE_PROFILE any other file. */
+    /* Only a process of another kind can decode the file: one of kind KILN_DECODE_OPENEXR an EXR,
+     * of kind KILN_DECODE_PROFILE another picture, of kind KILN_DECODE_DRACO a mesh. */
     KILN_DECODE_NEEDS_OTHER,
 };
 

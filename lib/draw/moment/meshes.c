@@ -23,9 +23,7 @@ static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct ki
     meshes->skins[meshes->count] = object->skin;
     meshes->animations[meshes->count] = &object->animation;
     meshes->posed_s[meshes->count] = -1.0f;
-    meshes->scratches[meshes->count] = kiln_skin_scratch_create(object->skin);
-    struct kiln_mesh *mesh =
-        meshes->scratches[meshes->count] ? kiln_mesh_copy(object->shown) : NULL;
+    struct kiln_mesh *mesh = kiln_mesh_copy(object->shown);
     if (!mesh)
         kiln_error_no_memory(error, "the meshes");
     return mesh;
@@ -73,18 +71,15 @@ void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s)
         const float seconds = kiln_scene_animation_s(animation, time_s);
         if (seconds == meshes->posed_s[i])
             continue;
-        kiln_skin_pose_mesh(meshes->skins[i], meshes->scratches[i], animation->number, seconds,
-                            meshes->own[i]);
+        kiln_skin_pose_mesh(meshes->skins[i], animation->number, seconds, meshes->own[i]);
         meshes->posed_s[i] = seconds;
     }
 }
 
 void kiln_meshes_finish(struct kiln_meshes *meshes)
 {
-    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++) {
+    for (uint32_t i = 0; i < KILN_MAX_MESHES; i++)
         kiln_mesh_destroy(&meshes->own[i]);
-        kiln_skin_scratch_destroy(&meshes->scratches[i]);
-    }
     kiln_painted_destroy(&meshes->painted);
     meshes->count = 0;
 }

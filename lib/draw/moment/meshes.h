@@ -11,7 +11,6 @@ struct kiln_meshes {
     const struct kiln_mesh *loaded[KILN_MAX_MESHES]; /* the mesh to draw: the scene's, or `own` */
     struct kiln_mesh *own[KILN_MAX_MESHES];          /* a terrain, or a posed copy; else NULL */
     const struct kiln_skin *skins[KILN_MAX_MESHES];  /* NULL: the mesh is not animated */
-    struct kiln_skin_scratch *scratches[KILN_MAX_MESHES]; /* of the same */
     const struct kiln_animation *animations[KILN_MAX_MESHES];
     float posed_s[KILN_MAX_MESHES]; /* animation time of the pose, s; below 0: not posed yet */
     struct kiln_painted *painted;   /* paint on meshes; NULL: no mesh takes paint */

@@ -16,8 +16,7 @@
 struct kiln_volume {
     uint32_t object;
     struct kiln_mesh *mesh;
-    const struct kiln_skin *skin; /* poses the mesh; NULL: it has no animation */
-    struct kiln_skin_scratch *scratch;
+    const struct kiln_skin *skin;    /* poses the mesh; NULL: it has no animation */
     float (*before)[3], (*after)[3]; /* m: vertices at the start and end of the step */
     float before_s, after_s;         /* the times of both, s */
     bool placed, made;
@@ -45,10 +44,10 @@ static bool jumps(const struct kiln_volume *volume, const struct kiln_object *ob
     float(*vertices)[6] = volume->mesh->vertices;
     const uint32_t clip = object->animation.number, count = rest->vertex_count;
     float most = 0.0f, size = 0.0f;
-    kiln_skin_pose(volume->skin, volume->scratch, clip, 0.0f, vertices);
+    kiln_skin_pose(volume->skin, clip, 0.0f, vertices);
     for (uint32_t i = 0; i < count; i++)
         memcpy(volume->before[i], vertices[i], sizeof volume->before[i]);
-    kiln_skin_pose(volume->skin, volume->scratch, clip, object->animation.length, vertices);
+    kiln_skin_pose(volume->skin, clip, object->animation.length, vertices);
     for (int c = 0; c < 3; c++) {
         size = exact_max(size, rest->max[c] - rest->min[c]);
         for (uint32_t i = 0; i < count; i++)
@@ -75,9 +74,7 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     const size_t count = object->collision_mesh->vertex_count;
     volume->before = calloc(count, sizeof *volume->before);
     volume->after = calloc(count, sizeof *volume->after);
-    if (volume->skin)
-        volume->scratch = kiln_skin_scratch_create(volume->skin);
-    if (!volume->mesh || !volume->before || !volume->after || (volume->skin && !volume->scratch)) {
+    if (!volume->mesh || !volume->before || !volume->after) {
         kiln_error_no_memory(error, "%zu vertices of %s", count, object->file);
         kiln_mesh_destroy(&volume->mesh);
         return volume; /* the caller frees it */
@@ -111,7 +108,6 @@ void kiln_volumes_finish(struct kiln_volumes *volumes)
         struct kiln_volume *volume = volumes->items[i];
         kiln_voxels_finish(&volume->voxels);
         kiln_mesh_destroy(&volume->mesh);
-        kiln_skin_scratch_destroy(&volume->scratch);
         free(volume->before);
         free(volume->after);
         free(volume);
@@ -133,8 +129,7 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
     mat3 rotation;
     kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
     if (volume->skin)
-        kiln_skin_pose(volume->skin, volume->scratch, object->animation.number, clip_s,
-                       volume->mesh->vertices);
+        kiln_skin_pose(volume->skin, object->animation.number, clip_s, volume->mesh->vertices);
     for (uint32_t i = 0; i < volume->mesh->vertex_count; i++) {
         glm_mat3_mulv(rotation, volume->mesh->vertices[i], to[i]);
         glm_vec3_scale(to[i], scale, to[i]);
