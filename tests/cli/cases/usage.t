@@ -374,11 +374,12 @@ $ kiln help check
 1|
 1|Reads each scene and prints it with every default spelled out. '-' reads a scene
 1|from standard input, whose files lie below the working directory. The output is
-1|a scene file that renders to the same pictures. A comment at its end tells the
-1|work of the whole clip: steps, particles at once, and memory. The memory is that
-1|of rendering without OpenGL, within a factor of 1.5, encoders left out. After a
-1|wrong scene is reported, the other scenes are checked all the same. A scene that
-1|asks for more than --limits allow ends with exit code 8.
+1|a scene file that renders to the same pictures. Comments at its end tell what
+1|its meshes are (their size, whether they are closed, their joints and clips),
+1|and the work of the whole clip: steps, particles at once, and memory. The memory
+1|is that of rendering without OpenGL, within a factor of 1.5, encoders left out.
+1|After a wrong scene is reported, the other scenes are checked all the same. A
+1|scene that asks for more than --limits allow ends with exit code 8.
 1|
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands
