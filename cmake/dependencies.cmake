@@ -10,6 +10,8 @@ pkg_check_modules(KILN_EGL egl)
 # kiln needs only the headers of the libraries of pictures, which kiln-decode loads for pictures of their kind
 # (decode/jpeg.c, decode/webp.c, decode/tiff.c, decode/profile.c).
 pkg_check_modules(KILN_PICTURES libjpeg libwebp libwebpdemux libtiff-4 lcms2)
+# kiln needs only the header of Jansson, which kiln-decode loads for meshes (decode/gltf_json.c).
+pkg_check_modules(KILN_JANSSON jansson)
 # kiln needs only the headers of libseccomp, which is loaded when a process gives up rights (lib/base/confine.c).
 pkg_check_modules(KILN_SECCOMP libseccomp)
 # kiln needs only the headers of libdeflate, which is loaded when a small PNG is written (lib/output/libdeflate.c).
@@ -29,7 +31,7 @@ pkg_check_modules(KILN_DRACO draco)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR
    NOT KILN_FFMPEG_FOUND OR NOT KILN_PICTURES_FOUND OR NOT KILN_SECCOMP_FOUND OR NOT KILN_DEFLATE_FOUND OR
    NOT KILN_CGLM_FOUND OR NOT KILN_EXR_FOUND OR NOT KILN_EXR_CORE OR
-   NOT KILN_DRACO_FOUND)
+   NOT KILN_DRACO_FOUND OR NOT KILN_JANSSON_FOUND)
     message(FATAL_ERROR "A library is missing; run tools/setup to install all that kiln needs.")
 endif()
 add_library(kiln_dependencies INTERFACE)

@@ -162,6 +162,10 @@ struct decode_mesh {
     void *user;
 };
 
+/* Opens the library that reads the JSON of glTF files, before the process is confined. Without it,
+ * only meshes of other formats are imported. */
+void decode_mesh_begin(void);
+
 /* Imports a mesh in this process; kiln limits its time (lib/asset/loader/helper.c). *needs_other is
  * set, and false returned, if only a process of kind KILN_DECODE_DRACO can. The caller frees
  * result->skin.deltas and result->looks.bytes, also after a failure. */

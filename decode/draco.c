@@ -37,18 +37,18 @@ static const struct {
                         [SECOND_TEXCOORD] = {"TEXCOORD_1", 2}};
 
 /* Returns what the integers of an accessor are divided by; 0: they are not. */
-static double most_of(const struct gltf *g, uint32_t attributes, const char *key)
+static double most_of(const struct gltf *g, const json_t *attributes, const char *key)
 {
     static const struct {
         uint32_t type;
         double most;
     } types[] = {{5120, 127.0}, {5121, 255.0}, {5122, 32767.0}, {5123, 65535.0}};
     uint32_t number = 0, type = 0;
-    if (!json_index(&g->json, json_member(&g->json, attributes, key), &number))
+    if (!gltf_index(gltf_member(attributes, key), &number))
         return 0.0;
-    const uint32_t accessor = gltf_element(g, GLTF_ACCESSORS, number);
-    if (!json_is_true(&g->json, json_member(&g->json, accessor, "normalized")) ||
-        !json_index(&g->json, json_member(&g->json, accessor, "componentType"), &type))
+    const json_t *accessor = gltf_element(g, GLTF_ACCESSORS, number);
+    if (!json_is_true(gltf_member(accessor, "normalized")) ||
+        !gltf_index(gltf_member(accessor, "componentType"), &type))
         return 0.0;
     for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
         if (types[i].type == type)
@@ -130,17 +130,17 @@ static bool is_wanted(const struct gltf *g, int attribute, bool uvs, bool weight
     }
 }
 
-bool gltf_read_draco(struct gltf *g, uint32_t json, uint32_t extension, bool uvs, bool weights,
-                     struct gltf_primitive *primitive)
+bool gltf_read_draco(struct gltf *g, const json_t *json, const json_t *extension, bool uvs,
+                     bool weights, struct gltf_primitive *primitive)
 {
-    const uint32_t ids = json_member(&g->json, extension, "attributes");
-    const uint32_t attributes = json_member(&g->json, json, "attributes");
+    const json_t *ids = gltf_member(extension, "attributes");
+    const json_t *attributes = gltf_member(json, "attributes");
     struct kiln_draco_attribute of[ATTRIBUTES];
     uint32_t number = 0;
     struct gltf_view view;
     if (!gltf_reference(g, extension, "bufferView", GLTF_VIEWS, &number))
         return false;
-    if (number == JSON_NONE)
+    if (number == GLTF_NONE)
         return GLTF_SET(g, "triangles that Draco compresses have no bufferView");
     if (!gltf_find_view(g, number, &view))
         return false;
@@ -149,7 +149,7 @@ bool gltf_read_draco(struct gltf *g, uint32_t json, uint32_t extension, bool uvs
                                               .components = wanted[i].components,
                                               .most = most_of(g, attributes, wanted[i].key)};
         if (is_wanted(g, i, uvs, weights))
-            (void)json_index(&g->json, json_member(&g->json, ids, wanted[i].key), &of[i].id);
+            (void)gltf_index(gltf_member(ids, wanted[i].key), &of[i].id);
     }
     of[COLOR].components = gltf_color_width(g, attributes);
     struct kiln_draco_request request = {.bytes = view.bytes,

@@ -11,9 +11,9 @@
 
 /* ---- parts of the document ------------------------------------------------------------------- */
 
-uint32_t gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number)
+const json_t *gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number)
 {
-    return number < g->lists[list].count ? g->lists[list].values[number] : JSON_NONE;
+    return gltf_item(g->lists[list].array, number);
 }
 
 static const char *const list_keys[GLTF_LISTS] = {
@@ -22,30 +22,29 @@ static const char *const list_keys[GLTF_LISTS] = {
     [GLTF_MATERIALS] = "materials", [GLTF_MESHES] = "meshes",         [GLTF_NODES] = "nodes",
     [GLTF_SCENES] = "scenes",       [GLTF_SKINS] = "skins",           [GLTF_VIEWS] = "bufferViews"};
 
-bool gltf_reference(struct gltf *g, uint32_t object, const char *key, enum gltf_list_name list,
+bool gltf_reference(struct gltf *g, const json_t *object, const char *key, enum gltf_list_name list,
                     uint32_t *number)
 {
-    const uint32_t value = json_member(&g->json, object, key);
-    *number = JSON_NONE;
-    if (value == JSON_NONE ||
-        (json_index(&g->json, value, number) && *number < g->lists[list].count))
+    const json_t *value = gltf_member(object, key);
+    *number = GLTF_NONE;
+    if (!value || (gltf_index(value, number) && *number < g->lists[list].count))
         return true;
     return GLTF_SET(g, "a member '%s' is no number of an element of '%s', of which there are %u",
                     key, list_keys[list], g->lists[list].count);
 }
 
-uint32_t gltf_extension(const struct gltf *g, uint32_t object, const char *name)
+const json_t *gltf_extension(const json_t *object, const char *name)
 {
-    const uint32_t found = json_member(&g->json, json_member(&g->json, object, "extensions"), name);
-    return json_is_object(&g->json, found) ? found : JSON_NONE;
+    const json_t *found = gltf_member(gltf_member(object, "extensions"), name);
+    return json_is_object(found) ? found : NULL;
 }
 
 bool gltf_requires(const struct gltf *g, const char *extension)
 {
-    const uint32_t list = json_member(&g->json, 0, "extensionsRequired");
-    for (uint32_t i = json_first(&g->json, list); i != JSON_NONE;
-         i = json_after(&g->json, list, i)) {
-        if (json_is(&g->json, i, extension))
+    const json_t *list = gltf_member(g->root, "extensionsRequired");
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(list, i_at)); i_at++) {
+        if (gltf_is(i, extension))
             return true;
     }
     return false;
@@ -54,22 +53,6 @@ bool gltf_requires(const struct gltf *g, const char *extension)
 void gltf_note(struct gltf *g, const char *text)
 {
     decode_note(g->notes, "%s", text);
-}
-
-static bool find_list(struct gltf *g, enum gltf_list_name name)
-{
-    const uint32_t array = json_member(&g->json, 0, list_keys[name]);
-    struct gltf_list *list = &g->lists[name];
-    const uint32_t count = json_count(&g->json, array);
-    if (count == 0)
-        return true;
-    list->values = malloc(count * sizeof *list->values);
-    if (!list->values)
-        return decode_out_of_memory(g->error);
-    for (uint32_t i = json_first(&g->json, array); i != JSON_NONE;
-         i = json_after(&g->json, array, i))
-        list->values[list->count++] = i;
-    return true;
 }
 
 /* ---- extensions ------------------------------------------------------------------------------ */
@@ -93,10 +76,10 @@ static bool is_of_looks(const char *name)
     return false;
 }
 
-static bool check_extension(struct gltf *g, uint32_t value)
+static bool check_extension(struct gltf *g, const json_t *value)
 {
     char name[100], note[256];
-    if (json_text(&g->json, value, name, sizeof name) >= sizeof name)
+    if (gltf_text(value, name, sizeof name) >= sizeof name)
         return GLTF_SET(g, "the file requires an extension whose name is longer than %zu bytes",
                         sizeof name - 1);
     for (size_t i = 0; i < sizeof supported / sizeof *supported; i++) {
@@ -115,9 +98,9 @@ static bool check_extension(struct gltf *g, uint32_t value)
 
 static bool check_extensions(struct gltf *g)
 {
-    const uint32_t list = json_member(&g->json, 0, "extensionsRequired");
-    for (uint32_t i = json_first(&g->json, list); i != JSON_NONE;
-         i = json_after(&g->json, list, i)) {
+    const json_t *list = gltf_member(g->root, "extensionsRequired");
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(list, i_at)); i_at++) {
         if (!check_extension(g, i))
             return false;
     }
@@ -141,13 +124,13 @@ static bool refuse_version(const struct gltf *g, const char *found)
 static bool check_version(struct gltf *g)
 {
     char text[32] = "";
-    const uint32_t asset = json_member(&g->json, 0, "asset");
-    uint32_t version = json_member(&g->json, asset, "minVersion");
-    if (version == JSON_NONE)
-        version = json_member(&g->json, asset, "version");
-    if (json_text(&g->json, version, text, sizeof text) == 0) {
+    const json_t *asset = gltf_member(g->root, "asset");
+    const json_t *version = gltf_member(asset, "minVersion");
+    if (!version)
+        version = gltf_member(asset, "version");
+    if (gltf_text(version, text, sizeof text) == 0) {
         /* the first files of version 1 have no `asset`, or one without a version */
-        const bool is_first = json_is_object(&g->json, json_member(&g->json, 0, "meshes"));
+        const bool is_first = json_is_object(gltf_member(g->root, "meshes"));
         return is_first ? refuse_version(g, "1")
                         : GLTF_SET(g, "the file does not say of which version of glTF it is: "
                                       "'asset.version' is missing; allowed is \"2.0\"");
@@ -211,15 +194,18 @@ static bool read_document(struct gltf *g)
 {
     const char *text = NULL;
     size_t size = 0;
-    if (!find_json(g, &text, &size) || !json_init(&g->json, text, size, g->error))
+    if (!find_json(g, &text, &size))
         return false;
-    if (!json_is_object(&g->json, 0))
+    g->root = gltf_json_read(text, size, g->error);
+    if (!g->root)
+        return false;
+    if (!json_is_object(g->root))
         return GLTF_SET(g, "the JSON is no object");
     if (!check_version(g) || !check_extensions(g))
         return false;
     for (int i = 0; i < GLTF_LISTS; i++) {
-        if (!find_list(g, (enum gltf_list_name)i))
-            return false;
+        const json_t *array = gltf_member(g->root, list_keys[i]);
+        g->lists[i] = (struct gltf_list){array, gltf_size(array)};
     }
     return true;
 }
@@ -228,30 +214,29 @@ static bool read_document(struct gltf *g)
 
 /* Returns whether a primitive's own accessors have its data, so that those of Draco are not needed.
  */
-static bool has_own_data(const struct gltf *g, uint32_t primitive)
+static bool has_own_data(const struct gltf *g, const json_t *primitive)
 {
-    const struct json *json = &g->json;
-    const uint32_t attributes = json_member(json, primitive, "attributes");
+    const json_t *attributes = gltf_member(primitive, "attributes");
     uint32_t number = 0;
-    if (g->needs_draco || !json_index(json, json_member(json, attributes, "POSITION"), &number))
+    if (g->needs_draco || !gltf_index(gltf_member(attributes, "POSITION"), &number))
         return false;
-    const uint32_t accessor = gltf_element(g, GLTF_ACCESSORS, number);
-    return json_member(json, accessor, "bufferView") != JSON_NONE;
+    const json_t *accessor = gltf_element(g, GLTF_ACCESSORS, number);
+    return gltf_member(accessor, "bufferView") != NULL;
 }
 
-uint32_t gltf_draco_of(const struct gltf *g, uint32_t primitive)
+const json_t *gltf_draco_of(const struct gltf *g, const json_t *primitive)
 {
-    const uint32_t found = gltf_extension(g, primitive, "KHR_draco_mesh_compression");
-    return found == JSON_NONE || has_own_data(g, primitive) ? JSON_NONE : found;
+    const json_t *found = gltf_extension(primitive, "KHR_draco_mesh_compression");
+    return !found || has_own_data(g, primitive) ? NULL : found;
 }
 
 static bool has_draco(const struct gltf *g)
 {
-    const struct json *json = &g->json;
     for (uint32_t i = 0; i < g->lists[GLTF_MESHES].count; i++) {
-        const uint32_t list = json_member(json, g->lists[GLTF_MESHES].values[i], "primitives");
-        for (uint32_t p = json_first(json, list); p != JSON_NONE; p = json_after(json, list, p)) {
-            if (gltf_draco_of(g, p) != JSON_NONE)
+        const json_t *list = gltf_member(gltf_element(g, GLTF_MESHES, i), "primitives");
+        size_t p_at = 0;
+        for (const json_t *p; (p = gltf_item(list, p_at)); p_at++) {
+            if (gltf_draco_of(g, p) != NULL)
                 return true;
         }
     }
@@ -270,9 +255,7 @@ static void finish(struct gltf *g)
     free(g->views);
     free(g->nodes);
     free(g->order);
-    for (int i = 0; i < GLTF_LISTS; i++)
-        free(g->lists[i].values);
-    json_finish(&g->json);
+    gltf_json_free(&g->root);
 }
 
 static bool make_surface(struct gltf *g, struct kiln_mesh_result *result)
@@ -292,10 +275,9 @@ static uint32_t count_targets(const struct gltf *g)
     uint64_t count = 0;
     for (uint32_t i = 0; i < g->order_count; i++) {
         const struct gltf_node *node = &g->nodes[g->order[i]];
-        const uint32_t mesh = gltf_element(g, GLTF_MESHES, node->shown ? node->mesh : JSON_NONE);
-        const uint32_t list = json_member(&g->json, mesh, "primitives");
-        const uint32_t first = json_first(&g->json, list);
-        count += json_count(&g->json, json_member(&g->json, first, "targets"));
+        const json_t *mesh = gltf_element(g, GLTF_MESHES, node->shown ? node->mesh : GLTF_NONE);
+        const json_t *list = gltf_member(mesh, "primitives");
+        count += gltf_size(gltf_member(gltf_item(list, 0), "targets"));
     }
     return count < UINT32_MAX ? (uint32_t)count : UINT32_MAX;
 }

@@ -9,7 +9,7 @@
 
 #include "asset/geometry/mesh_in.h"
 #include "decode.h"
-#include "json.h"
+#include "gltf_json.h"
 #include "model.h"
 
 /* The arrays of the document that other parts refer to by number. */
@@ -29,11 +29,13 @@ enum gltf_list_name {
     GLTF_LISTS
 };
 
-/* The elements of an array, as values of the JSON. */
 struct gltf_list {
-    uint32_t *values;
+    const json_t *array;
     uint32_t count;
 };
+
+/* Stands for the number of an element that is missing. */
+#define GLTF_NONE UINT32_MAX
 
 struct gltf_bytes {
     const unsigned char *bytes; /* NULL: there are none, or not yet */
@@ -47,8 +49,8 @@ struct gltf_pose {
 };
 
 struct gltf_node {
-    uint32_t parent;       /* JSON_NONE: it has no parent */
-    uint32_t mesh, skin;   /* JSON_NONE: none */
+    uint32_t parent;       /* GLTF_NONE: it has no parent */
+    uint32_t mesh, skin;   /* GLTF_NONE: none */
     bool placed;           /* it is in the order */
     bool shown;            /* it is in the scene */
     bool needed;           /* it shows a mesh, is a joint of one, or is above such a node */
@@ -60,8 +62,8 @@ struct gltf_node {
 struct gltf {
     const struct decode_mesh *wanted;
     struct kiln_error *error;
-    char *notes; /* what is to be told to the user, a line each; KILN_MESSAGE_SIZE bytes */
-    struct json json;
+    char *notes;  /* what is to be told to the user, a line each; KILN_MESSAGE_SIZE bytes */
+    json_t *root; /* of the JSON */
     struct gltf_list lists[GLTF_LISTS];
     struct gltf_bytes chunk;    /* the binary chunk of a GLB */
     struct gltf_bytes *buffers; /* of all buffers */
@@ -77,16 +79,16 @@ struct gltf {
 
 /* ---- gltf.c ---------------------------------------------------------------------------------- */
 
-/* Returns an element of a list, or JSON_NONE. */
-uint32_t gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number);
+/* Returns an element of a list, or NULL. */
+const json_t *gltf_element(const struct gltf *g, enum gltf_list_name list, uint32_t number);
 
-/* Gets a member that is the number of an element of a list. *number is JSON_NONE if there is no
+/* Gets a member that is the number of an element of a list. *number is GLTF_NONE if there is no
  * such member. It is an error if there is no such element. */
-bool gltf_reference(struct gltf *g, uint32_t object, const char *key, enum gltf_list_name list,
+bool gltf_reference(struct gltf *g, const json_t *object, const char *key, enum gltf_list_name list,
                     uint32_t *number);
 
-/* Returns an extension of an object of the document, or JSON_NONE. */
-uint32_t gltf_extension(const struct gltf *g, uint32_t object, const char *name);
+/* Returns an extension of an object of the document, or NULL. */
+const json_t *gltf_extension(const json_t *object, const char *name);
 
 /* Returns whether the file says that it cannot be read without an extension. */
 bool gltf_requires(const struct gltf *g, const char *extension);
@@ -100,7 +102,7 @@ void gltf_note(struct gltf *g, const char *text);
 bool gltf_open_buffers(struct gltf *g);
 
 /* Gets the text of a URI in memory that the caller frees; NULL: memory is short. */
-char *gltf_copy_uri(struct gltf *g, uint32_t value, size_t *length);
+char *gltf_copy_uri(struct gltf *g, const json_t *value, size_t *length);
 
 /* Replaces each %20 and its like by the byte that it stands for. Returns the length. */
 size_t gltf_decode_percents(char *text, size_t length);
@@ -116,8 +118,8 @@ struct gltf_view {
 
 bool gltf_find_view(struct gltf *g, uint32_t number, struct gltf_view *view);
 
-/* Returns the extension by which meshopt compresses a view, or JSON_NONE. */
-uint32_t gltf_meshopt_of(const struct gltf *g, uint32_t view);
+/* Returns the extension by which meshopt compresses a view, or NULL. */
+const json_t *gltf_meshopt_of(const struct gltf *g, uint32_t view);
 
 /* ---- gltf_accessor.c ------------------------------------------------------------------------- */
 
@@ -185,7 +187,7 @@ struct gltf_primitive {
 
 /* Reads a primitive of triangles. Others, and those without positions, get no triangles. A failed
  * primitive is to be finished, too. uvs, weights: whether they are wanted. */
-bool gltf_read_primitive(struct gltf *g, uint32_t json, bool uvs, bool weights,
+bool gltf_read_primitive(struct gltf *g, const json_t *json, bool uvs, bool weights,
                          struct gltf_primitive *primitive);
 void gltf_finish_primitive(struct gltf_primitive *primitive);
 
@@ -196,7 +198,7 @@ void gltf_place_uvs(const struct gltf *g, struct gltf_primitive *primitive);
 /* Gets the transform of texture coordinates of a texture that a material names (KHR_texture_
  * transform), for coordinates that count from the bottom. False: it has none, and rows are not
  * changed. */
-bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3]);
+bool gltf_get_transform(const json_t *texture, double rows[2][3]);
 
 /* Gets the weights of morph targets by default of a node's mesh; NULL: all are 0, or failure, which
  * *ok tells. The caller frees them. count: number of targets. */
@@ -211,11 +213,11 @@ void gltf_morph(struct gltf_primitive *primitive, const float *weights);
 bool gltf_put_materials(struct gltf *g, struct decode_model *model);
 
 /* Reads colours and second texture coordinates of vertices, if materials are wanted. */
-bool gltf_read_colors(struct gltf *g, uint32_t attributes, struct gltf_range range,
+bool gltf_read_colors(struct gltf *g, const json_t *attributes, struct gltf_range range,
                       struct gltf_primitive *primitive);
 
 /* Returns how many numbers the colour of a vertex has: 3 without alpha, else 4. */
-uint32_t gltf_color_width(const struct gltf *g, uint32_t attributes);
+uint32_t gltf_color_width(const struct gltf *g, const json_t *attributes);
 
 /* Gives a primitive colours of its vertices, each of `width` numbers. */
 bool gltf_put_colors(struct gltf *g, const float *colors, uint32_t width,
@@ -266,7 +268,7 @@ bool gltf_put_creases(struct gltf *g, struct gltf_piece *pieces, uint32_t count,
 
 /* Which numbers the nodes of the file have in the result, and which morph targets each has. */
 struct gltf_moved {
-    uint32_t node;       /* JSON_NONE: it is not in the result */
+    uint32_t node;       /* GLTF_NONE: it is not in the result */
     uint32_t first_bone; /* from 1; of its first instance; 0: it moves no part by itself */
     uint32_t first_morph, target_count; /* of its first part; the others' follow */
     uint32_t part_count;
@@ -279,14 +281,14 @@ bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved,
 /* Returns whether some clip moves the weights of a node's morph targets. */
 bool gltf_morphs_move(const struct gltf *g, uint32_t node);
 
-/* Returns the extension by which Draco compresses a primitive; JSON_NONE: it has its own data. */
-uint32_t gltf_draco_of(const struct gltf *g, uint32_t primitive);
+/* Returns the extension by which Draco compresses a primitive; NULL: it has its own data. */
+const json_t *gltf_draco_of(const struct gltf *g, const json_t *primitive);
 
 /* ---- draco.c --------------------------------------------------------------------------------- */
 
 /* Reads the geometry of a primitive that Draco compresses, but for its morph targets. */
-bool gltf_read_draco(struct gltf *g, uint32_t json, uint32_t extension, bool uvs, bool weights,
-                     struct gltf_primitive *primitive);
+bool gltf_read_draco(struct gltf *g, const json_t *json, const json_t *extension, bool uvs,
+                     bool weights, struct gltf_primitive *primitive);
 
 /* Gives a primitive the strongest influences out of `sets` sets of four joints and weights. */
 bool gltf_put_weights(struct gltf *g, struct gltf_primitive *primitive, uint32_t *const joints[],

@@ -59,17 +59,18 @@ static uint32_t column_size(const struct component *type, const struct shape *sh
 /* ---- accessors ------------------------------------------------------------------------------- */
 
 struct accessor {
-    uint32_t number, json, count;
+    const json_t *json;
+    uint32_t number, count;
     const struct component *type;
     const struct shape *shape;
     bool is_normalized;
     struct gltf_view view; /* from the first element on; without bytes: all elements are 0 */
 };
 
-static const struct component *find_component(const struct gltf *g, uint32_t value)
+static const struct component *find_component(const json_t *value)
 {
     uint32_t number = 0;
-    if (!json_index(&g->json, value, &number))
+    if (!gltf_index(value, &number))
         return NULL;
     for (size_t i = 0; i < sizeof components / sizeof *components; i++) {
         if (components[i].number == number)
@@ -78,22 +79,22 @@ static const struct component *find_component(const struct gltf *g, uint32_t val
     return NULL;
 }
 
-static const struct shape *find_shape(const struct gltf *g, uint32_t value)
+static const struct shape *find_shape(const json_t *value)
 {
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
-        if (json_is(&g->json, value, shapes[i].name))
+        if (gltf_is(value, shapes[i].name))
             return &shapes[i];
     }
     return NULL;
 }
 
 /* Gets the bytes of elements: the view from an offset on, which must have `count` elements. */
-static bool find_elements(struct gltf *g, const struct accessor *a, uint32_t json, uint32_t view,
-                          uint64_t count, uint64_t size, struct gltf_view *out)
+static bool find_elements(struct gltf *g, const struct accessor *a, const json_t *json,
+                          uint32_t view, uint64_t count, uint64_t size, struct gltf_view *out)
 {
     uint32_t offset = 0;
-    const uint32_t said = json_member(&g->json, json, "byteOffset");
-    if (said != JSON_NONE && !json_index(&g->json, said, &offset))
+    const json_t *said = gltf_member(json, "byteOffset");
+    if (said && !gltf_index(said, &offset))
         return GLTF_SET(g, "the byteOffset of accessor %u is no offset", a->number);
     if (!gltf_find_view(g, view, out))
         return false;
@@ -110,14 +111,13 @@ static bool find_elements(struct gltf *g, const struct accessor *a, uint32_t jso
 
 static bool open_accessor(struct gltf *g, uint32_t number, struct accessor *a)
 {
-    const uint32_t json = gltf_element(g, GLTF_ACCESSORS, number);
+    const json_t *json = gltf_element(g, GLTF_ACCESSORS, number);
     uint32_t view = 0;
-    *a = (struct accessor){.number = number, .json = json};
-    a->type = find_component(g, json_member(&g->json, json, "componentType"));
-    a->shape = find_shape(g, json_member(&g->json, json, "type"));
-    a->is_normalized = json_is_true(&g->json, json_member(&g->json, json, "normalized"));
-    if (!a->type || !a->shape ||
-        !json_index(&g->json, json_member(&g->json, json, "count"), &a->count))
+    *a = (struct accessor){.json = json, .number = number};
+    a->type = find_component(gltf_member(json, "componentType"));
+    a->shape = find_shape(gltf_member(json, "type"));
+    a->is_normalized = json_is_true(gltf_member(json, "normalized"));
+    if (!a->type || !a->shape || !gltf_index(gltf_member(json, "count"), &a->count))
         return GLTF_SET(g,
                         "accessor %u has a componentType, a type or a count that glTF does not "
                         "have",
@@ -125,14 +125,14 @@ static bool open_accessor(struct gltf *g, uint32_t number, struct accessor *a)
     if (!gltf_reference(g, json, "bufferView", GLTF_VIEWS, &view))
         return false;
     const uint64_t size = (uint64_t)column_size(a->type, a->shape) * a->shape->columns;
-    return view == JSON_NONE || find_elements(g, a, json, view, a->count, size, &a->view);
+    return view == GLTF_NONE || find_elements(g, a, json, view, a->count, size, &a->view);
 }
 
 bool gltf_count(struct gltf *g, uint32_t accessor, uint32_t most, const char *what, uint32_t *count)
 {
-    const uint32_t json = gltf_element(g, GLTF_ACCESSORS, accessor);
+    const json_t *json = gltf_element(g, GLTF_ACCESSORS, accessor);
     *count = 0;
-    if (!json_index(&g->json, json_member(&g->json, json, "count"), count))
+    if (!gltf_index(gltf_member(json, "count"), count))
         return GLTF_SET(g, "accessor %u has no count", accessor);
     return *count <= most || GLTF_SET(g, "accessor %u has %u %s; allowed are at most %u", accessor,
                                       *count, what, most);
@@ -163,13 +163,14 @@ struct sparse {
     struct gltf_view indices, values;
 };
 
-static bool open_sparse(struct gltf *g, const struct accessor *a, uint32_t json, struct sparse *s)
+static bool open_sparse(struct gltf *g, const struct accessor *a, const json_t *json,
+                        struct sparse *s)
 {
-    const uint32_t indices = json_member(&g->json, json, "indices");
-    const uint32_t values = json_member(&g->json, json, "values");
+    const json_t *indices = gltf_member(json, "indices");
+    const json_t *values = gltf_member(json, "values");
     uint32_t index_view = 0, value_view = 0;
-    s->index_type = find_component(g, json_member(&g->json, indices, "componentType"));
-    if (!json_index(&g->json, json_member(&g->json, json, "count"), &s->count) || !s->index_type ||
+    s->index_type = find_component(gltf_member(indices, "componentType"));
+    if (!gltf_index(gltf_member(json, "count"), &s->count) || !s->index_type ||
         s->index_type->is_signed || s->count > a->count)
         return GLTF_SET(g,
                         "the sparse accessor %u has a componentType of indices or a count that "
@@ -178,7 +179,7 @@ static bool open_sparse(struct gltf *g, const struct accessor *a, uint32_t json,
     const uint64_t size = (uint64_t)column_size(a->type, a->shape) * a->shape->columns;
     return gltf_reference(g, indices, "bufferView", GLTF_VIEWS, &index_view) &&
            gltf_reference(g, values, "bufferView", GLTF_VIEWS, &value_view) &&
-           ((index_view != JSON_NONE && value_view != JSON_NONE) ||
+           ((index_view != GLTF_NONE && value_view != GLTF_NONE) ||
             GLTF_SET(g, "the sparse accessor %u has no bufferView", a->number)) &&
            find_elements(g, a, indices, index_view, s->count, s->index_type->size, &s->indices) &&
            find_elements(g, a, values, value_view, s->count, size, &s->values);
@@ -190,10 +191,10 @@ typedef void put_element(void *out, size_t element, const double *values, uint32
 static bool put_sparse(struct gltf *g, const struct accessor *a, struct gltf_range range,
                        put_element *put, void *out)
 {
-    const uint32_t json = json_member(&g->json, a->json, "sparse");
+    const json_t *json = gltf_member(a->json, "sparse");
     const uint32_t components_of_one = a->shape->columns * a->shape->rows;
     struct sparse s = {.count = 0};
-    if (json == JSON_NONE)
+    if (!json)
         return true;
     if (!open_sparse(g, a, json, &s))
         return false;

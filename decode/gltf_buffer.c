@@ -104,19 +104,19 @@ static bool open_file(struct gltf *g, char *uri, size_t length, struct gltf_byte
 
 /* ---- buffers --------------------------------------------------------------------------------- */
 
-char *gltf_copy_uri(struct gltf *g, uint32_t value, size_t *length)
+char *gltf_copy_uri(struct gltf *g, const json_t *value, size_t *length)
 {
     char none[1];
-    *length = json_text(&g->json, value, none, sizeof none);
+    *length = gltf_text(value, none, sizeof none);
     char *uri = malloc(*length + 1);
     if (uri)
-        json_text(&g->json, value, uri, *length + 1);
+        gltf_text(value, uri, *length + 1);
     else
         decode_out_of_memory(g->error);
     return uri;
 }
 
-static bool open_uri(struct gltf *g, uint32_t value, struct gltf_bytes *out)
+static bool open_uri(struct gltf *g, const json_t *value, struct gltf_bytes *out)
 {
     size_t length = 0;
     char *uri = gltf_copy_uri(g, value, &length);
@@ -130,15 +130,15 @@ static bool open_uri(struct gltf *g, uint32_t value, struct gltf_bytes *out)
 static bool open_buffer(struct gltf *g, uint32_t number)
 {
     struct gltf_bytes *buffer = &g->buffers[number];
-    const uint32_t json = g->lists[GLTF_BUFFERS].values[number];
-    const uint32_t uri = json_member(&g->json, json, "uri");
-    const uint32_t said = json_member(&g->json, json, "byteLength");
+    const json_t *json = gltf_element(g, GLTF_BUFFERS, number);
+    const json_t *uri = gltf_member(json, "uri");
+    const json_t *said = gltf_member(json, "byteLength");
     uint32_t length = 0;
-    if (said != JSON_NONE && !json_index(&g->json, said, &length))
+    if (said && !gltf_index(said, &length))
         return GLTF_SET(g, "the byteLength of buffer %u is no length", number);
-    if (uri != JSON_NONE && !open_uri(g, uri, buffer))
+    if (uri && !open_uri(g, uri, buffer))
         return false;
-    if (uri == JSON_NONE && number == 0)
+    if (uri == NULL && number == 0)
         *buffer = g->chunk;
     /* A buffer without bytes is one that only meshopt's views refer to, or that nothing does. */
     if (!buffer->bytes)
@@ -146,7 +146,7 @@ static bool open_buffer(struct gltf *g, uint32_t number)
     if (length > buffer->size)
         return GLTF_SET(g, "buffer %u is cut short: it has %zu bytes of %u", number, buffer->size,
                         length);
-    if (said != JSON_NONE)
+    if (said)
         buffer->size = length;
     return true;
 }
@@ -168,17 +168,17 @@ bool gltf_open_buffers(struct gltf *g)
 /* ---- views ----------------------------------------------------------------------------------- */
 
 /* Gets a member that is a size; `otherwise` if there is none. */
-static bool get_size(struct gltf *g, uint32_t object, const char *key, uint32_t otherwise,
+static bool get_size(struct gltf *g, const json_t *object, const char *key, uint32_t otherwise,
                      uint32_t *size)
 {
-    const uint32_t value = json_member(&g->json, object, key);
+    const json_t *value = gltf_member(object, key);
     *size = otherwise;
-    return value == JSON_NONE || json_index(&g->json, value, size) ||
+    return !value || gltf_index(value, size) ||
            GLTF_SET(g, "a member '%s' is no whole number from 0 to %u", key, UINT32_MAX - 1);
 }
 
 /* Finds the part of a buffer that a view, or its meshopt extension, names. */
-static bool find_part(struct gltf *g, uint32_t view, uint32_t json, struct gltf_view *out)
+static bool find_part(struct gltf *g, uint32_t view, const json_t *json, struct gltf_view *out)
 {
     uint32_t buffer = 0, offset = 0, length = 0, stride = 0;
     if (!gltf_reference(g, json, "buffer", GLTF_BUFFERS, &buffer) ||
@@ -186,7 +186,7 @@ static bool find_part(struct gltf *g, uint32_t view, uint32_t json, struct gltf_
         !get_size(g, json, "byteLength", 0, &length) ||
         !get_size(g, json, "byteStride", 0, &stride))
         return false;
-    if (buffer == JSON_NONE || !g->buffers[buffer].bytes)
+    if (buffer == GLTF_NONE || !g->buffers[buffer].bytes)
         return GLTF_SET(g, "buffer view %u is in a buffer without data", view);
     const struct gltf_bytes *from = &g->buffers[buffer];
     if (offset > from->size || length > from->size - offset)
@@ -196,22 +196,22 @@ static bool find_part(struct gltf *g, uint32_t view, uint32_t json, struct gltf_
     return true;
 }
 
-uint32_t gltf_meshopt_of(const struct gltf *g, uint32_t view)
+const json_t *gltf_meshopt_of(const struct gltf *g, uint32_t view)
 {
-    const uint32_t json = gltf_element(g, GLTF_VIEWS, view);
-    uint32_t found = gltf_extension(g, json, "KHR_meshopt_compression");
-    if (found == JSON_NONE)
-        found = gltf_extension(g, json, "EXT_meshopt_compression");
-    if (found == JSON_NONE || g->needs_meshopt)
+    const json_t *json = gltf_element(g, GLTF_VIEWS, view);
+    const json_t *found = gltf_extension(json, "KHR_meshopt_compression");
+    if (!found)
+        found = gltf_extension(json, "EXT_meshopt_compression");
+    if (!found || g->needs_meshopt)
         return found;
     /* Where the file does not require the extension, the view's own buffer may have the data. */
     uint32_t buffer = 0;
-    const bool has = json_index(&g->json, json_member(&g->json, json, "buffer"), &buffer) &&
+    const bool has = gltf_index(gltf_member(json, "buffer"), &buffer) &&
                      buffer < g->lists[GLTF_BUFFERS].count && g->buffers[buffer].bytes;
-    return has ? JSON_NONE : found;
+    return has ? NULL : found;
 }
 
-static bool get_meshopt(struct gltf *g, uint32_t json, struct meshopt_stream *stream)
+static bool get_meshopt(struct gltf *g, const json_t *json, struct meshopt_stream *stream)
 {
     static const char *const modes[] = {[MESHOPT_ATTRIBUTES] = "ATTRIBUTES",
                                         [MESHOPT_TRIANGLES] = "TRIANGLES",
@@ -221,14 +221,14 @@ static bool get_meshopt(struct gltf *g, uint32_t json, struct meshopt_stream *st
                                           [MESHOPT_QUATERNION] = "QUATERNION",
                                           [MESHOPT_EXPONENTIAL] = "EXPONENTIAL",
                                           [MESHOPT_COLOR] = "COLOR"};
-    const uint32_t mode = json_member(&g->json, json, "mode");
-    const uint32_t filter = json_member(&g->json, json, "filter");
+    const json_t *mode = gltf_member(json, "mode");
+    const json_t *filter = gltf_member(json, "filter");
     uint32_t stride = 0, count = 0, m = 0, f = 0;
     if (!get_size(g, json, "byteStride", 0, &stride) || !get_size(g, json, "count", 0, &count))
         return false;
-    while (m < 3 && !json_is(&g->json, mode, modes[m]))
+    while (m < 3 && !gltf_is(mode, modes[m]))
         m++;
-    while (filter != JSON_NONE && f < 5 && !json_is(&g->json, filter, filters[f]))
+    while (filter && f < 5 && !gltf_is(filter, filters[f]))
         f++;
     stream->mode = (enum meshopt_mode)m;
     stream->filter = (enum meshopt_filter)f;
@@ -239,7 +239,7 @@ static bool get_meshopt(struct gltf *g, uint32_t json, struct meshopt_stream *st
 }
 
 /* Decompresses a view, once. */
-static bool decompress(struct gltf *g, uint32_t number, uint32_t json, struct gltf_view *view)
+static bool decompress(struct gltf *g, uint32_t number, const json_t *json, struct gltf_view *view)
 {
     struct gltf_bytes *kept = &g->views[number];
     struct meshopt_stream stream;
@@ -263,9 +263,9 @@ static bool decompress(struct gltf *g, uint32_t number, uint32_t json, struct gl
 
 bool gltf_find_view(struct gltf *g, uint32_t number, struct gltf_view *view)
 {
-    const uint32_t json = gltf_element(g, GLTF_VIEWS, number);
-    const uint32_t meshopt = gltf_meshopt_of(g, number);
-    if (meshopt != JSON_NONE)
+    const json_t *json = gltf_element(g, GLTF_VIEWS, number);
+    const json_t *meshopt = gltf_meshopt_of(g, number);
+    if (meshopt)
         return decompress(g, number, meshopt, view);
     return find_part(g, number, json, view);
 }

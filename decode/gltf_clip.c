@@ -8,31 +8,29 @@
 
 /* ---- channels -------------------------------------------------------------------------------- */
 
-/* Returns the node that a channel moves; JSON_NONE: it moves something else. */
-static uint32_t node_of(const struct gltf *g, uint32_t channel)
+/* Returns the node that a channel moves; GLTF_NONE: it moves something else. */
+static uint32_t node_of(const struct gltf *g, const json_t *channel)
 {
-    const uint32_t target = json_member(&g->json, channel, "target");
+    const json_t *target = gltf_member(channel, "target");
     uint32_t node = 0;
-    return json_index(&g->json, json_member(&g->json, target, "node"), &node) &&
-                   node < g->lists[GLTF_NODES].count
+    return gltf_index(gltf_member(target, "node"), &node) && node < g->lists[GLTF_NODES].count
                ? node
-               : JSON_NONE;
+               : GLTF_NONE;
 }
 
-static bool has_path(const struct gltf *g, uint32_t channel, const char *path)
+static bool has_path(const json_t *channel, const char *path)
 {
-    const uint32_t target = json_member(&g->json, channel, "target");
-    return json_is(&g->json, json_member(&g->json, target, "path"), path);
+    const json_t *target = gltf_member(channel, "target");
+    return gltf_is(gltf_member(target, "path"), path);
 }
 
 bool gltf_morphs_move(const struct gltf *g, uint32_t node)
 {
     for (uint32_t i = 0; i < g->lists[GLTF_ANIMATIONS].count; i++) {
-        const uint32_t list =
-            json_member(&g->json, g->lists[GLTF_ANIMATIONS].values[i], "channels");
-        for (uint32_t c = json_first(&g->json, list); c != JSON_NONE;
-             c = json_after(&g->json, list, c)) {
-            if (node_of(g, c) == node && has_path(g, c, "weights"))
+        const json_t *list = gltf_member(gltf_element(g, GLTF_ANIMATIONS, i), "channels");
+        size_t c_at = 0;
+        for (const json_t *c; (c = gltf_item(list, c_at)); c_at++) {
+            if (node_of(g, c) == node && has_path(c, "weights"))
                 return true;
         }
     }
@@ -54,23 +52,23 @@ struct clips {
     struct kiln_skin_result *skin;
     /* Of the nodes of the result, the channel in the clip at hand, from 1. */
     uint32_t *channels;
-    uint32_t *morph_channels;          /* of the morphs, in the same way */
-    uint32_t *samplers, sampler_count; /* of the clip at hand, as values of the JSON */
+    uint32_t *morph_channels; /* of the morphs, in the same way */
+    const json_t *samplers;   /* of the clip at hand */
 };
 
-static bool get_interpolation(struct gltf *g, uint32_t json, struct sampler *sampler)
+static bool get_interpolation(struct gltf *g, const json_t *json, struct sampler *sampler)
 {
-    const uint32_t said = json_member(&g->json, json, "interpolation");
+    const json_t *said = gltf_member(json, "interpolation");
     char text[40];
     sampler->interpolation = KILN_SKIN_LINEAR;
-    if (said == JSON_NONE || json_is(&g->json, said, "LINEAR"))
+    if (!said || gltf_is(said, "LINEAR"))
         return true;
     sampler->interpolation = KILN_SKIN_STEP;
-    if (json_is(&g->json, said, "STEP"))
+    if (gltf_is(said, "STEP"))
         return true;
     sampler->interpolation = KILN_SKIN_CUBIC;
-    json_text(&g->json, said, text, sizeof text);
-    return json_is(&g->json, said, "CUBICSPLINE") ||
+    gltf_text(said, text, sizeof text);
+    return gltf_is(said, "CUBICSPLINE") ||
            GLTF_SET(g,
                     "a sampler's interpolation is '%s'; allowed are LINEAR, STEP and "
                     "CUBICSPLINE",
@@ -79,20 +77,21 @@ static bool get_interpolation(struct gltf *g, uint32_t json, struct sampler *sam
 
 /* Reads the times of a channel's sampler, and how to interpolate. The caller frees the arrays, also
  * after a failure. */
-static bool read_sampler(struct clips *c, uint32_t channel, struct sampler *sampler)
+static bool read_sampler(struct clips *c, const json_t *channel, struct sampler *sampler)
 {
     struct gltf *g = c->g;
     uint32_t number = 0, input = 0;
     *sampler = (struct sampler){.count = 0};
-    if (!json_index(&g->json, json_member(&g->json, channel, "sampler"), &number) ||
-        number >= c->sampler_count)
+    const json_t *json = gltf_index(gltf_member(channel, "sampler"), &number)
+                             ? gltf_item(c->samplers, number)
+                             : NULL;
+    if (!json)
         return GLTF_SET(g, "a channel of an animation has no sampler");
-    const uint32_t json = c->samplers[number];
     if (!gltf_reference(g, json, "input", GLTF_ACCESSORS, &input) ||
         !gltf_reference(g, json, "output", GLTF_ACCESSORS, &sampler->output) ||
         !get_interpolation(g, json, sampler))
         return false;
-    if (input == JSON_NONE || sampler->output == JSON_NONE)
+    if (input == GLTF_NONE || sampler->output == GLTF_NONE)
         return GLTF_SET(g, "a sampler of an animation has no input or no output");
     if (!gltf_count(g, input, KILN_MAX_CLIP_KEYS, "keys", &sampler->count))
         return false;
@@ -179,13 +178,13 @@ static const struct {
                                 [KILN_CHANNEL_TURN] = {"rotation", "VEC4", 4},
                                 [KILN_CHANNEL_SCALE] = {"scale", "VEC3", 3}};
 
-static bool put_node_channel(struct clips *c, struct kiln_skin_clip *clip, uint32_t json,
+static bool put_node_channel(struct clips *c, struct kiln_skin_clip *clip, const json_t *json,
                              uint32_t node, struct sampler *sampler)
 {
     int kind = 0;
-    while (kind < KILN_CHANNEL_TRACKS && !has_path(c->g, json, paths[kind].path))
+    while (kind < KILN_CHANNEL_TRACKS && !has_path(json, paths[kind].path))
         kind++;
-    if (kind == KILN_CHANNEL_TRACKS || node == JSON_NONE)
+    if (kind == KILN_CHANNEL_TRACKS || node == GLTF_NONE)
         return true;
     struct kiln_skin_channel *channel = find_channel(c, clip, node);
     if (!channel)
@@ -227,20 +226,19 @@ static bool put_weights(struct clips *c, struct kiln_skin_clip *clip,
 
 /* ---- clips ----------------------------------------------------------------------------------- */
 
-static bool put_channel(struct clips *c, struct kiln_skin_clip *clip, uint32_t json)
+static bool put_channel(struct clips *c, struct kiln_skin_clip *clip, const json_t *json)
 {
     const uint32_t node = node_of(c->g, json);
     struct sampler sampler;
-    if (node == JSON_NONE)
+    if (node == GLTF_NONE)
         return true;
     const struct gltf_moved *moved = &c->moved[node];
     bool ok = read_sampler(c, json, &sampler);
     if (ok && sampler.count > 0 && sampler.times[sampler.count - 1] > clip->length)
         clip->length = sampler.times[sampler.count - 1];
     if (ok)
-        ok = has_path(c->g, json, "weights")
-                 ? put_weights(c, clip, moved, &sampler)
-                 : put_node_channel(c, clip, json, moved->node, &sampler);
+        ok = has_path(json, "weights") ? put_weights(c, clip, moved, &sampler)
+                                       : put_node_channel(c, clip, json, moved->node, &sampler);
     free(sampler.times);
     free(sampler.values);
     return ok;
@@ -261,22 +259,7 @@ static bool fill_channels(struct clips *c, const struct kiln_skin_clip *clip,
     return true;
 }
 
-static bool find_samplers(struct clips *c, uint32_t animation)
-{
-    const struct json *json = &c->g->json;
-    const uint32_t list = json_member(json, animation, "samplers");
-    free(c->samplers);
-    c->sampler_count = 0;
-    c->samplers = malloc(((size_t)json_count(json, list) + 1) * sizeof *c->samplers);
-    if (!c->samplers)
-        return decode_out_of_memory(c->g->error);
-    for (uint32_t i = json_count(json, list) > 0 ? json_first(json, list) : JSON_NONE;
-         i != JSON_NONE; i = json_after(json, list, i))
-        c->samplers[c->sampler_count++] = i;
-    return true;
-}
-
-static bool put_clip(struct clips *c, uint32_t animation, const uint32_t *numbers)
+static bool put_clip(struct clips *c, const json_t *animation, const uint32_t *numbers)
 {
     struct kiln_skin_result *skin = c->skin;
     struct gltf *g = c->g;
@@ -285,16 +268,17 @@ static bool put_clip(struct clips *c, uint32_t animation, const uint32_t *number
     struct kiln_skin_clip *clip = &skin->clips[skin->clip_count++];
     *clip = (struct kiln_skin_clip){.first = skin->channel_count,
                                     .first_morph = skin->morph_channel_count};
-    if (json_text(&g->json, json_member(&g->json, animation, "name"), clip->name,
-                  sizeof clip->name) >= sizeof clip->name)
+    if (gltf_text(gltf_member(animation, "name"), clip->name, sizeof clip->name) >=
+        sizeof clip->name)
         return GLTF_SET(g, "the name of an animation is longer than %d bytes",
                         KILN_MAX_CLIP_NAME - 1);
     memset(c->channels, 0, KILN_MAX_SKIN_NODES * sizeof *c->channels);
     memset(c->morph_channels, 0, KILN_MAX_SKIN_MORPHS * sizeof *c->morph_channels);
-    bool ok = find_samplers(c, animation);
-    const uint32_t list = json_member(&g->json, animation, "channels");
-    for (uint32_t i = json_first(&g->json, list); ok && i != JSON_NONE;
-         i = json_after(&g->json, list, i))
+    c->samplers = gltf_member(animation, "samplers");
+    bool ok = true;
+    const json_t *list = gltf_member(animation, "channels");
+    size_t i_at = 0;
+    for (const json_t *i; ok && (i = gltf_item(list, i_at)); i_at++)
         ok = put_channel(c, clip, i);
     return ok && fill_channels(c, clip, numbers);
 }
@@ -334,15 +318,14 @@ bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved, struct kiln_
     if (!ok)
         decode_out_of_memory(g->error);
     for (uint32_t i = 0; ok && i < g->lists[GLTF_NODES].count; i++) {
-        if (moved[i].node != JSON_NONE)
+        if (moved[i].node != GLTF_NONE)
             numbers[moved[i].node] = i;
     }
     for (uint32_t i = 0; ok && i < g->lists[GLTF_ANIMATIONS].count; i++)
-        ok = put_clip(&c, g->lists[GLTF_ANIMATIONS].values[i], numbers);
+        ok = put_clip(&c, gltf_element(g, GLTF_ANIMATIONS, i), numbers);
     ok = ok && order_keys(&c);
     free(numbers);
     free(c.channels);
     free(c.morph_channels);
-    free(c.samplers);
     return ok && (result->skin.clip_count > 0 || GLTF_SET(g, "the file has no animation"));
 }

@@ -19,42 +19,39 @@ struct reading {
 /* ---- numbers --------------------------------------------------------------------------------- */
 
 /* Gets a number between limits; `otherwise` if there is none. */
-static float get_number(const struct gltf *g, uint32_t object, const char *key, float otherwise,
-                        float least, float most)
+static float get_number(const json_t *object, const char *key, float otherwise, float least,
+                        float most)
 {
     double number = 0.0;
-    if (!json_number(&g->json, json_member(&g->json, object, key), &number))
+    if (!gltf_number(gltf_member(object, key), &number))
         return otherwise;
     return number > (double)least ? (number < (double)most ? (float)number : most) : least;
 }
 
 /* Gets the numbers of an array from 0 to 1, as far as it has them. */
-static void get_numbers(const struct gltf *g, uint32_t object, const char *key, float *out,
-                        uint32_t count)
+static void get_numbers(const json_t *object, const char *key, float *out, uint32_t count)
 {
-    const uint32_t array = json_member(&g->json, object, key);
-    uint32_t k = 0;
-    for (uint32_t i = json_first(&g->json, array); i != JSON_NONE && k < count;
-         i = json_after(&g->json, array, i), k++) {
+    const json_t *array = gltf_member(object, key);
+    for (uint32_t i = 0; i < count; i++) {
         double number = 0.0;
-        if (json_number(&g->json, i, &number))
-            out[k] = decode_clamp((float)number, 0, 1);
+        if (gltf_number(gltf_item(array, i), &number))
+            out[i] = decode_clamp((float)number, 0, 1);
     }
 }
 
-/* Returns the element of a list that a member names by its number, or JSON_NONE. */
-static uint32_t element_of(const struct gltf *g, uint32_t object, const char *key,
-                           enum gltf_list_name list, uint32_t *number)
+/* Returns the element of a list that a member names by its number, or NULL. */
+static const json_t *element_of(const struct gltf *g, const json_t *object, const char *key,
+                                enum gltf_list_name list, uint32_t *number)
 {
-    *number = JSON_NONE;
-    (void)json_index(&g->json, json_member(&g->json, object, key), number);
+    *number = GLTF_NONE;
+    (void)gltf_index(gltf_member(object, key), number);
     return gltf_element(g, list, *number);
 }
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
 /* Adds a picture in a data URI or in another file. */
-static uint32_t add_uri(struct reading *r, uint32_t value)
+static uint32_t add_uri(struct reading *r, const json_t *value)
 {
     struct gltf_bytes data = {.size = 0};
     struct kiln_error ignored = {0}, *kept = r->g->error;
@@ -94,15 +91,15 @@ static uint32_t add_view(struct reading *r, uint32_t number)
 static uint32_t add_image(struct reading *r, uint32_t number)
 {
     const struct gltf *g = r->g;
-    const uint32_t image = gltf_element(g, GLTF_IMAGES, number);
-    if (image == JSON_NONE)
+    const json_t *image = gltf_element(g, GLTF_IMAGES, number);
+    if (!image)
         return KILN_NO_TEXTURE;
     if (r->of_images[number] == 0) {
-        const uint32_t uri = json_member(&g->json, image, "uri");
+        const json_t *uri = gltf_member(image, "uri");
         uint32_t view = 0, texture = KILN_NO_TEXTURE;
-        if (uri != JSON_NONE)
+        if (uri)
             texture = add_uri(r, uri);
-        else if (element_of(g, image, "bufferView", GLTF_VIEWS, &view) != JSON_NONE)
+        else if (element_of(g, image, "bufferView", GLTF_VIEWS, &view))
             texture = add_view(r, view);
         r->of_images[number] = texture == KILN_NO_TEXTURE ? UINT32_MAX : texture + 1;
     }
@@ -111,15 +108,15 @@ static uint32_t add_image(struct reading *r, uint32_t number)
 
 /* Returns the picture of a texture of the file: its own or, if it has none that all programs read,
  * that of an extension. */
-static uint32_t add_texture(struct reading *r, uint32_t texture)
+static uint32_t add_texture(struct reading *r, const json_t *texture)
 {
     static const char *const others[] = {"EXT_texture_webp", "EXT_texture_avif",
                                          "KHR_texture_basisu", "MSFT_texture_dds"};
     const struct gltf *g = r->g;
     uint32_t image = 0;
-    uint32_t found = element_of(g, texture, "source", GLTF_IMAGES, &image);
-    for (size_t i = 0; found == JSON_NONE && i < sizeof others / sizeof *others; i++)
-        found = element_of(g, gltf_extension(g, texture, others[i]), "source", GLTF_IMAGES, &image);
+    const json_t *found = element_of(g, texture, "source", GLTF_IMAGES, &image);
+    for (size_t i = 0; !found && i < sizeof others / sizeof *others; i++)
+        found = element_of(g, gltf_extension(texture, others[i]), "source", GLTF_IMAGES, &image);
     return add_image(r, image);
 }
 
@@ -127,30 +124,29 @@ static uint32_t add_texture(struct reading *r, uint32_t texture)
 
 enum { NEAREST = 9728, CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 }; /* numbers of OpenGL */
 
-static uint32_t wrap_of(const struct gltf *g, uint32_t sampler, const char *key)
+static uint32_t wrap_of(const json_t *sampler, const char *key)
 {
     uint32_t number = 0;
-    if (!json_index(&g->json, json_member(&g->json, sampler, key), &number))
+    if (!gltf_index(gltf_member(sampler, key), &number))
         return KILN_WRAP_REPEAT;
     return number == CLAMP_TO_EDGE     ? KILN_WRAP_CLAMP
            : number == MIRRORED_REPEAT ? KILN_WRAP_MIRROR
                                        : KILN_WRAP_REPEAT;
 }
 
-static void read_sampler(const struct gltf *g, uint32_t texture, struct kiln_material_map *map)
+static void read_sampler(const struct gltf *g, const json_t *texture, struct kiln_material_map *map)
 {
     uint32_t number = 0, filter = 0;
-    const uint32_t sampler = element_of(g, texture, "sampler", GLTF_SAMPLERS, &number);
-    map->wrap[0] = wrap_of(g, sampler, "wrapS");
-    map->wrap[1] = wrap_of(g, sampler, "wrapT");
-    map->is_nearest = json_index(&g->json, json_member(&g->json, sampler, "magFilter"), &filter) &&
-                      filter == NEAREST;
+    const json_t *sampler = element_of(g, texture, "sampler", GLTF_SAMPLERS, &number);
+    map->wrap[0] = wrap_of(sampler, "wrapS");
+    map->wrap[1] = wrap_of(sampler, "wrapT");
+    map->is_nearest = gltf_index(gltf_member(sampler, "magFilter"), &filter) && filter == NEAREST;
 }
 
-static void read_transform(const struct gltf *g, uint32_t info, struct kiln_material_map *map)
+static void read_transform(const json_t *info, struct kiln_material_map *map)
 {
     double rows[2][3];
-    if (!gltf_get_transform(g, info, rows))
+    if (!gltf_get_transform(info, rows))
         return;
     for (int i = 0; i < 6; i++) {
         const double most = (double)KILN_MAX_MATERIAL_NUMBER, number = rows[i / 3][i % 3];
@@ -159,16 +155,16 @@ static void read_transform(const struct gltf *g, uint32_t info, struct kiln_mate
 }
 
 /* Reads how a material uses a texture. info: what the material says of it. */
-static void read_map(struct reading *r, uint32_t info, struct kiln_material_map *map)
+static void read_map(struct reading *r, const json_t *info, struct kiln_material_map *map)
 {
     struct gltf *g = r->g;
     uint32_t number = 0, set = 0;
-    const uint32_t texture = element_of(g, info, "index", GLTF_TEXTURES, &number);
-    if (texture == JSON_NONE)
+    const json_t *texture = element_of(g, info, "index", GLTF_TEXTURES, &number);
+    if (!texture)
         return;
-    const uint32_t transform = gltf_extension(g, info, "KHR_texture_transform");
-    if (!json_index(&g->json, json_member(&g->json, transform, "texCoord"), &set))
-        (void)json_index(&g->json, json_member(&g->json, info, "texCoord"), &set);
+    const json_t *transform = gltf_extension(info, "KHR_texture_transform");
+    if (!gltf_index(gltf_member(transform, "texCoord"), &set))
+        (void)gltf_index(gltf_member(info, "texCoord"), &set);
     if (set >= KILN_UV_SETS) {
         decode_note(r->model->notes,
                     "a texture is left out that is laid by set %u of texture coordinates; allowed "
@@ -179,24 +175,23 @@ static void read_map(struct reading *r, uint32_t info, struct kiln_material_map 
     map->texture = add_texture(r, texture);
     map->uv_set = set;
     map->strength =
-        get_number(g, info, "scale", 1, -KILN_MAX_MATERIAL_NUMBER, KILN_MAX_MATERIAL_NUMBER);
+        get_number(info, "scale", 1, -KILN_MAX_MATERIAL_NUMBER, KILN_MAX_MATERIAL_NUMBER);
     read_sampler(g, texture, map);
-    read_transform(g, info, map);
+    read_transform(info, map);
 }
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
-static void read_metal(struct reading *r, uint32_t looks, struct kiln_material *out)
+static void read_metal(struct reading *r, const json_t *looks, struct kiln_material *out)
 {
-    const struct gltf *g = r->g;
     float color[4] = {1, 1, 1, 1};
-    get_numbers(g, looks, "baseColorFactor", color, 4);
+    get_numbers(looks, "baseColorFactor", color, 4);
     memcpy(out->color, color, sizeof out->color);
     out->alpha = color[3];
-    out->metalness = get_number(g, looks, "metallicFactor", 1, 0, 1);
-    out->roughness = get_number(g, looks, "roughnessFactor", 1, 0, 1);
-    read_map(r, json_member(&g->json, looks, "baseColorTexture"), &out->maps[KILN_USE_COLOR]);
-    const uint32_t both = json_member(&g->json, looks, "metallicRoughnessTexture");
+    out->metalness = get_number(looks, "metallicFactor", 1, 0, 1);
+    out->roughness = get_number(looks, "roughnessFactor", 1, 0, 1);
+    read_map(r, gltf_member(looks, "baseColorTexture"), &out->maps[KILN_USE_COLOR]);
+    const json_t *both = gltf_member(looks, "metallicRoughnessTexture");
     read_map(r, both, &out->maps[KILN_USE_ROUGHNESS]);
     read_map(r, both, &out->maps[KILN_USE_METALNESS]);
     out->maps[KILN_USE_ROUGHNESS].channel = KILN_TEXEL_GREEN;
@@ -233,13 +228,12 @@ static float metalness_of(float diffuse, float specular, float rest)
  * example does (convert-between-workflows, in the extension's folder); its textures cannot be, so
  * that of diffuse light is taken for the base colour, and glossiness for the inverse of roughness.
  */
-static void read_gloss(struct reading *r, uint32_t gloss, struct kiln_material *out)
+static void read_gloss(struct reading *r, const json_t *gloss, struct kiln_material *out)
 {
-    const struct gltf *g = r->g;
     const float least = 1e-6f;
     float diffuse[4] = {1, 1, 1, 1}, specular[3] = {1, 1, 1};
-    get_numbers(g, gloss, "diffuseFactor", diffuse, 4);
-    get_numbers(g, gloss, "specularFactor", specular, 3);
+    get_numbers(gloss, "diffuseFactor", diffuse, 4);
+    get_numbers(gloss, "specularFactor", specular, 3);
     const float rest = 1 - strongest_of(specular);
     const float metal = metalness_of(brightness_of(diffuse), brightness_of(specular), rest);
     const float no_metal = 1 - metal > least ? 1 - metal : least;
@@ -252,48 +246,45 @@ static void read_gloss(struct reading *r, uint32_t gloss, struct kiln_material *
     }
     out->alpha = diffuse[3];
     out->metalness = metal;
-    out->roughness = 1 - get_number(g, gloss, "glossinessFactor", 1, 0, 1);
-    read_map(r, json_member(&g->json, gloss, "diffuseTexture"), &out->maps[KILN_USE_COLOR]);
+    out->roughness = 1 - get_number(gloss, "glossinessFactor", 1, 0, 1);
+    read_map(r, gltf_member(gloss, "diffuseTexture"), &out->maps[KILN_USE_COLOR]);
     struct kiln_material_map *map = &out->maps[KILN_USE_ROUGHNESS];
-    read_map(r, json_member(&g->json, gloss, "specularGlossinessTexture"), map);
+    read_map(r, gltf_member(gloss, "specularGlossinessTexture"), map);
     map->channel = KILN_TEXEL_ALPHA;
     map->is_inverse = map->texture != KILN_NO_TEXTURE;
     if (map->is_inverse)
         out->roughness = 1; /* a product of glossinesses is none of roughnesses */
 }
 
-static void read_emission(struct reading *r, uint32_t material, struct kiln_material *out)
+static void read_emission(struct reading *r, const json_t *material, struct kiln_material *out)
 {
-    const struct gltf *g = r->g;
-    const uint32_t extension = gltf_extension(g, material, "KHR_materials_emissive_strength");
-    const float strength = get_number(g, extension, "emissiveStrength", 1, 0, KILN_MAX_EMISSION);
-    get_numbers(g, material, "emissiveFactor", out->emission, 3);
+    const json_t *extension = gltf_extension(material, "KHR_materials_emissive_strength");
+    const float strength = get_number(extension, "emissiveStrength", 1, 0, KILN_MAX_EMISSION);
+    get_numbers(material, "emissiveFactor", out->emission, 3);
     for (int c = 0; c < 3; c++)
         out->emission[c] *= strength;
-    read_map(r, json_member(&g->json, material, "emissiveTexture"), &out->maps[KILN_USE_EMISSION]);
+    read_map(r, gltf_member(material, "emissiveTexture"), &out->maps[KILN_USE_EMISSION]);
 }
 
-static void read_material(struct reading *r, uint32_t material, struct kiln_material *out)
+static void read_material(struct reading *r, const json_t *material, struct kiln_material *out)
 {
-    const struct gltf *g = r->g;
-    const struct json *json = &g->json;
     char name[4 * KILN_MATERIAL_NAME_SIZE] = "";
-    (void)json_text(json, json_member(json, material, "name"), name, sizeof name);
+    (void)gltf_text(gltf_member(material, "name"), name, sizeof name);
     decode_copy_name(name, strlen(name), out->name);
-    const uint32_t gloss = gltf_extension(g, material, "KHR_materials_pbrSpecularGlossiness");
-    if (gloss != JSON_NONE)
+    const json_t *gloss = gltf_extension(material, "KHR_materials_pbrSpecularGlossiness");
+    if (gloss)
         read_gloss(r, gloss, out);
     else
-        read_metal(r, json_member(json, material, "pbrMetallicRoughness"), out);
-    read_map(r, json_member(json, material, "normalTexture"), &out->maps[KILN_USE_NORMAL]);
+        read_metal(r, gltf_member(material, "pbrMetallicRoughness"), out);
+    read_map(r, gltf_member(material, "normalTexture"), &out->maps[KILN_USE_NORMAL]);
     read_emission(r, material, out);
-    const uint32_t mode = json_member(json, material, "alphaMode");
-    out->alpha_mode = json_is(json, mode, "MASK")    ? KILN_ALPHA_MASK
-                      : json_is(json, mode, "BLEND") ? KILN_ALPHA_BLEND
-                                                     : KILN_ALPHA_OPAQUE;
-    out->cutoff = get_number(g, material, "alphaCutoff", 0.5f, 0, KILN_MAX_MATERIAL_NUMBER);
-    out->is_two_sided = json_is_true(json, json_member(json, material, "doubleSided"));
-    out->is_unlit = gltf_extension(g, material, "KHR_materials_unlit") != JSON_NONE;
+    const json_t *mode = gltf_member(material, "alphaMode");
+    out->alpha_mode = gltf_is(mode, "MASK")    ? KILN_ALPHA_MASK
+                      : gltf_is(mode, "BLEND") ? KILN_ALPHA_BLEND
+                                               : KILN_ALPHA_OPAQUE;
+    out->cutoff = get_number(material, "alphaCutoff", 0.5f, 0, KILN_MAX_MATERIAL_NUMBER);
+    out->is_two_sided = json_is_true(gltf_member(material, "doubleSided"));
+    out->is_unlit = gltf_extension(material, "KHR_materials_unlit") != NULL;
 }
 
 bool gltf_put_materials(struct gltf *g, struct decode_model *model)
@@ -308,18 +299,18 @@ bool gltf_put_materials(struct gltf *g, struct decode_model *model)
     if (!r.of_images)
         return decode_out_of_memory(g->error);
     for (uint32_t i = 0; i < model->looks->material_count; i++)
-        read_material(&r, g->lists[GLTF_MATERIALS].values[numbers[i]], &model->looks->materials[i]);
+        read_material(&r, gltf_element(g, GLTF_MATERIALS, numbers[i]), &model->looks->materials[i]);
     free(r.of_images);
     return true;
 }
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-uint32_t gltf_color_width(const struct gltf *g, uint32_t attributes)
+uint32_t gltf_color_width(const struct gltf *g, const json_t *attributes)
 {
     uint32_t number = 0;
-    const uint32_t accessor = element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &number);
-    return json_is(&g->json, json_member(&g->json, accessor, "type"), "VEC3") ? 3 : 4;
+    const json_t *accessor = element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &number);
+    return gltf_is(gltf_member(accessor, "type"), "VEC3") ? 3 : 4;
 }
 
 bool gltf_put_colors(struct gltf *g, const float *colors, uint32_t width,
@@ -336,18 +327,18 @@ bool gltf_put_colors(struct gltf *g, const float *colors, uint32_t width,
     return true;
 }
 
-bool gltf_read_colors(struct gltf *g, uint32_t attributes, struct gltf_range range,
+bool gltf_read_colors(struct gltf *g, const json_t *attributes, struct gltf_range range,
                       struct gltf_primitive *primitive)
 {
     uint32_t accessor = 0;
     if (!g->wanted->materials)
         return true;
-    if (element_of(g, attributes, "TEXCOORD_1", GLTF_ACCESSORS, &accessor) != JSON_NONE) {
+    if (element_of(g, attributes, "TEXCOORD_1", GLTF_ACCESSORS, &accessor)) {
         primitive->second_uvs = (float(*)[2])gltf_read(g, accessor, "VEC2", range);
         if (!primitive->second_uvs)
             return false;
     }
-    if (element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &accessor) == JSON_NONE)
+    if (!element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &accessor))
         return true;
     const uint32_t width = gltf_color_width(g, attributes);
     float *colors = gltf_read(g, accessor, width == 3 ? "VEC3" : "VEC4", range);

@@ -21,7 +21,7 @@ struct moving {
     struct gltf *g;
     struct kiln_mesh_result *result;
     struct gltf_moved *moved; /* of the file's nodes */
-    uint32_t *numbers;        /* of the result's nodes in the file; JSON_NONE for the root */
+    uint32_t *numbers;        /* of the result's nodes in the file; GLTF_NONE for the root */
     uint32_t *first_bones;    /* of the file's skins, from 1; 0: not yet */
     uint32_t *skin_counts;    /* joints of the same */
     struct part *parts;
@@ -63,20 +63,19 @@ static bool put_nodes(struct moving *m)
     struct kiln_skin_result *skin = &m->result->skin;
     put_matrix((const double[3][4]){{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, skin->nodes[0].rest);
     skin->nodes[0].parent = 0;
-    m->numbers[0] = JSON_NONE;
+    m->numbers[0] = GLTF_NONE;
     skin->node_count = 1;
     bool ok = true;
     for (uint32_t i = 0; ok && i < g->order_count; i++) {
-        if (g->nodes[g->order[i]].parent == JSON_NONE)
+        if (g->nodes[g->order[i]].parent == GLTF_NONE)
             ok = put_node(m, g->order[i], 0);
     }
     for (uint32_t i = 1; ok && i < skin->node_count; i++) {
-        const uint32_t list =
-            json_member(&g->json, g->lists[GLTF_NODES].values[m->numbers[i]], "children");
-        for (uint32_t c = json_first(&g->json, list); ok && c != JSON_NONE;
-             c = json_after(&g->json, list, c)) {
+        const json_t *list = gltf_member(gltf_element(g, GLTF_NODES, m->numbers[i]), "children");
+        size_t c_at = 0;
+        for (const json_t *c; ok && (c = gltf_item(list, c_at)); c_at++) {
             uint32_t child = 0;
-            ok = json_index(&g->json, c, &child) && put_node(m, child, i);
+            ok = gltf_index(c, &child) && put_node(m, child, i);
         }
     }
     return ok;
@@ -92,7 +91,7 @@ static bool put_bone(struct moving *m, uint32_t node, const double offset[3][4])
     struct kiln_skin_bone *bone = &skin->bones[skin->bone_count++];
     bone->node = m->moved[node].node;
     put_matrix(offset, bone->offset);
-    return bone->node != JSON_NONE || GLTF_SET(m->g, "a joint is no node of the scene");
+    return bone->node != GLTF_NONE || GLTF_SET(m->g, "a joint is no node of the scene");
 }
 
 /* Stores the joints of a skin as bones, once. */
@@ -259,13 +258,13 @@ static bool put_instances(struct moving *m, uint32_t node, const struct gltf_ins
     return true;
 }
 
-static bool put_primitive(struct moving *m, uint32_t node, uint32_t json,
+static bool put_primitive(struct moving *m, uint32_t node, const json_t *json,
                           const struct gltf_instances *instances)
 {
     struct gltf *g = m->g;
     const struct gltf_moved *moved = &m->moved[node];
     struct gltf_primitive primitive;
-    bool ok = gltf_read_primitive(g, json, false, g->nodes[node].skin != JSON_NONE, &primitive);
+    bool ok = gltf_read_primitive(g, json, false, g->nodes[node].skin != GLTF_NONE, &primitive);
     const bool morphs = ok && primitive.target_count > 0 && gltf_morphs_move(g, node);
     float *weights = NULL;
     if (ok)
@@ -284,13 +283,13 @@ static bool put_primitive(struct moving *m, uint32_t node, uint32_t json,
 static bool put_mesh(struct moving *m, uint32_t node)
 {
     struct gltf *g = m->g;
-    const uint32_t mesh = g->lists[GLTF_MESHES].values[g->nodes[node].mesh];
-    const uint32_t list = json_member(&g->json, mesh, "primitives");
+    const json_t *mesh = gltf_element(g, GLTF_MESHES, g->nodes[node].mesh);
+    const json_t *list = gltf_member(mesh, "primitives");
     struct gltf_instances instances = {.count = 0};
     bool ok = gltf_find_instances(g, node, &instances) &&
-              (g->nodes[node].skin == JSON_NONE || put_skin(m, g->nodes[node].skin));
-    for (uint32_t i = json_first(&g->json, list); ok && i != JSON_NONE;
-         i = json_after(&g->json, list, i))
+              (g->nodes[node].skin == GLTF_NONE || put_skin(m, g->nodes[node].skin));
+    size_t i_at = 0;
+    for (const json_t *i; ok && (i = gltf_item(list, i_at)); i_at++)
         ok = put_primitive(m, node, i, &instances);
     free(instances.rows);
     return ok;
@@ -300,7 +299,7 @@ static bool put_meshes(struct moving *m)
 {
     for (uint32_t i = 1; i < m->result->skin.node_count; i++) {
         const struct gltf_node *node = &m->g->nodes[m->numbers[i]];
-        if (node->shown && node->mesh != JSON_NONE && !put_mesh(m, m->numbers[i]))
+        if (node->shown && node->mesh != GLTF_NONE && !put_mesh(m, m->numbers[i]))
             return false;
     }
     return true;
@@ -396,7 +395,7 @@ static bool begin(struct moving *m)
     m->first_bones = calloc(skins, sizeof *m->first_bones);
     m->skin_counts = calloc(skins, sizeof *m->skin_counts);
     for (size_t i = 0; m->moved && i < nodes; i++)
-        m->moved[i].node = JSON_NONE;
+        m->moved[i].node = GLTF_NONE;
     return (m->moved && m->numbers && m->first_bones && m->skin_counts) ||
            decode_out_of_memory(g->error);
 }

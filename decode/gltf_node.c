@@ -94,21 +94,20 @@ static void decompose(const double rows[3][4], struct gltf_pose *pose)
 /* ---- reading --------------------------------------------------------------------------------- */
 
 /* Gets a member that is an array of numbers. */
-static bool get_numbers(struct gltf *g, uint32_t object, const char *key, uint32_t count,
+static bool get_numbers(struct gltf *g, const json_t *object, const char *key, uint32_t count,
                         double *numbers, bool *is_there)
 {
-    const uint32_t array = json_member(&g->json, object, key);
-    *is_there = array != JSON_NONE;
+    const json_t *array = gltf_member(object, key);
+    *is_there = array != NULL;
     if (!*is_there)
         return true;
-    bool good = json_count(&g->json, array) == count;
-    for (uint32_t i = good ? json_first(&g->json, array) : JSON_NONE; good && i != JSON_NONE;
-         i = json_after(&g->json, array, i))
-        good = json_number(&g->json, i, numbers++);
+    bool good = gltf_size(array) == count;
+    for (size_t i = 0; good && i < count; i++)
+        good = gltf_number(gltf_item(array, i), &numbers[i]);
     return good || GLTF_SET(g, "the %s of a node is not %u numbers", key, count);
 }
 
-static bool read_transform(struct gltf *g, uint32_t json, struct gltf_node *node)
+static bool read_transform(struct gltf *g, const json_t *json, struct gltf_node *node)
 {
     double m[16] = {0};
     bool is_there = false;
@@ -133,19 +132,19 @@ static bool read_transform(struct gltf *g, uint32_t json, struct gltf_node *node
 
 static bool read_node(struct gltf *g, uint32_t number)
 {
-    const uint32_t json = g->lists[GLTF_NODES].values[number];
+    const json_t *json = gltf_element(g, GLTF_NODES, number);
     struct gltf_node *node = &g->nodes[number];
     if (!read_transform(g, json, node) ||
         !gltf_reference(g, json, "mesh", GLTF_MESHES, &node->mesh) ||
         !gltf_reference(g, json, "skin", GLTF_SKINS, &node->skin))
         return false;
-    const uint32_t children = json_member(&g->json, json, "children");
-    for (uint32_t i = json_first(&g->json, children); i != JSON_NONE;
-         i = json_after(&g->json, children, i)) {
+    const json_t *children = gltf_member(json, "children");
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(children, i_at)); i_at++) {
         uint32_t child = 0;
-        if (!json_index(&g->json, i, &child) || child >= g->lists[GLTF_NODES].count)
+        if (!gltf_index(i, &child) || child >= g->lists[GLTF_NODES].count)
             return GLTF_SET(g, "node %u has a child that is no node", number);
-        if (g->nodes[child].parent != JSON_NONE)
+        if (g->nodes[child].parent != GLTF_NONE)
             return GLTF_SET(g, "node %u is the child of two nodes", child);
         g->nodes[child].parent = number;
     }
@@ -157,13 +156,12 @@ static bool read_node(struct gltf *g, uint32_t number)
 /* Puts the children of a node on the stack, the first one on top. */
 static void push_children(struct gltf *g, uint32_t number, uint32_t *stack, uint32_t *height)
 {
-    const uint32_t children =
-        json_member(&g->json, g->lists[GLTF_NODES].values[number], "children");
+    const json_t *children = gltf_member(gltf_element(g, GLTF_NODES, number), "children");
     const uint32_t first = *height;
-    for (uint32_t i = json_first(&g->json, children); i != JSON_NONE;
-         i = json_after(&g->json, children, i)) {
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(children, i_at)); i_at++) {
         uint32_t child = 0;
-        (void)json_index(&g->json, i, &child); /* read_node has checked it */
+        (void)gltf_index(i, &child); /* read_node has checked it */
         stack[(*height)++] = child;
     }
     for (uint32_t a = first, b = *height; a + 1 < b; a++, b--) {
@@ -182,7 +180,7 @@ static void add_tree(struct gltf *g, uint32_t root, bool shown, uint32_t *stack)
     while (height > 0) {
         const uint32_t number = stack[--height];
         struct gltf_node *node = &g->nodes[number];
-        if (node->parent == JSON_NONE)
+        if (node->parent == GLTF_NONE)
             memcpy(node->world, node->local, sizeof node->world);
         else
             gltf_multiply(g->nodes[node->parent].world, node->local, node->world);
@@ -197,24 +195,24 @@ static void add_tree(struct gltf *g, uint32_t root, bool shown, uint32_t *stack)
 static bool add_scene(struct gltf *g, uint32_t *stack)
 {
     uint32_t number = 0;
-    if (!gltf_reference(g, 0, "scene", GLTF_SCENES, &number))
+    if (!gltf_reference(g, g->root, "scene", GLTF_SCENES, &number))
         return false;
-    const uint32_t scene = gltf_element(g, GLTF_SCENES, number == JSON_NONE ? 0 : number);
-    if (scene == JSON_NONE) {
+    const json_t *scene = gltf_element(g, GLTF_SCENES, number == GLTF_NONE ? 0 : number);
+    if (!scene) {
         for (uint32_t i = 0; i < g->lists[GLTF_NODES].count; i++) {
-            if (g->nodes[i].parent == JSON_NONE)
+            if (g->nodes[i].parent == GLTF_NONE)
                 add_tree(g, i, true, stack);
         }
         return true;
     }
-    const uint32_t roots = json_member(&g->json, scene, "nodes");
-    for (uint32_t i = json_first(&g->json, roots); i != JSON_NONE;
-         i = json_after(&g->json, roots, i)) {
+    const json_t *roots = gltf_member(scene, "nodes");
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(roots, i_at)); i_at++) {
         uint32_t root = 0;
-        if (!json_index(&g->json, i, &root) || root >= g->lists[GLTF_NODES].count)
+        if (!gltf_index(i, &root) || root >= g->lists[GLTF_NODES].count)
             return GLTF_SET(g, "the scene has a node that is none of the %u nodes",
                             g->lists[GLTF_NODES].count);
-        if (g->nodes[root].parent != JSON_NONE || g->nodes[root].placed)
+        if (g->nodes[root].parent != GLTF_NONE || g->nodes[root].placed)
             return GLTF_SET(g, "node %u is twice in the scene, as a root and below one", root);
         add_tree(g, root, true, stack);
     }
@@ -228,7 +226,7 @@ static void add_tree_of(struct gltf *g, uint32_t joint, uint32_t *stack)
     uint32_t at = joint;
     while (!g->nodes[at].needed && !g->nodes[at].placed) {
         g->nodes[at].needed = true; /* find_needed takes the mark away */
-        if (g->nodes[at].parent == JSON_NONE) {
+        if (g->nodes[at].parent == GLTF_NONE) {
             add_tree(g, at, false, stack);
             return;
         }
@@ -239,11 +237,11 @@ static void add_tree_of(struct gltf *g, uint32_t joint, uint32_t *stack)
 static bool add_joints(struct gltf *g, uint32_t *stack)
 {
     for (uint32_t s = 0; s < g->lists[GLTF_SKINS].count; s++) {
-        const uint32_t joints = json_member(&g->json, g->lists[GLTF_SKINS].values[s], "joints");
-        for (uint32_t i = json_first(&g->json, joints); i != JSON_NONE;
-             i = json_after(&g->json, joints, i)) {
+        const json_t *joints = gltf_member(gltf_element(g, GLTF_SKINS, s), "joints");
+        size_t i_at = 0;
+        for (const json_t *i; (i = gltf_item(joints, i_at)); i_at++) {
             uint32_t joint = 0;
-            if (!json_index(&g->json, i, &joint) || joint >= g->lists[GLTF_NODES].count)
+            if (!gltf_index(i, &joint) || joint >= g->lists[GLTF_NODES].count)
                 return GLTF_SET(g, "a joint of skin %u is none of the %u nodes", s,
                                 g->lists[GLTF_NODES].count);
             add_tree_of(g, joint, stack);
@@ -256,7 +254,7 @@ static bool add_joints(struct gltf *g, uint32_t *stack)
 
 static void mark(struct gltf *g, uint32_t number)
 {
-    for (; number != JSON_NONE && !g->nodes[number].needed; number = g->nodes[number].parent)
+    for (; number != GLTF_NONE && !g->nodes[number].needed; number = g->nodes[number].parent)
         g->nodes[number].needed = true;
 }
 
@@ -267,15 +265,15 @@ static void find_needed(struct gltf *g)
         g->nodes[g->order[i]].needed = false;
     for (uint32_t i = 0; i < g->order_count; i++) {
         const struct gltf_node *node = &g->nodes[g->order[i]];
-        if (!node->shown || node->mesh == JSON_NONE)
+        if (!node->shown || node->mesh == GLTF_NONE)
             continue;
         mark(g, g->order[i]);
-        const uint32_t skin = gltf_element(g, GLTF_SKINS, node->skin);
-        const uint32_t joints = json_member(&g->json, skin, "joints");
-        for (uint32_t j = json_first(&g->json, joints); j != JSON_NONE;
-             j = json_after(&g->json, joints, j)) {
+        const json_t *skin = gltf_element(g, GLTF_SKINS, node->skin);
+        const json_t *joints = gltf_member(skin, "joints");
+        size_t j_at = 0;
+        for (const json_t *j; (j = gltf_item(joints, j_at)); j_at++) {
             uint32_t joint = 0;
-            if (json_index(&g->json, j, &joint))
+            if (gltf_index(j, &joint))
                 mark(g, joint);
         }
     }
@@ -291,7 +289,7 @@ bool gltf_find_nodes(struct gltf *g)
     if (!ok)
         decode_out_of_memory(g->error);
     for (uint32_t i = 0; ok && i < count; i++)
-        g->nodes[i].parent = JSON_NONE;
+        g->nodes[i].parent = GLTF_NONE;
     for (uint32_t i = 0; ok && i < count; i++)
         ok = read_node(g, i);
     ok = ok && add_scene(g, stack) && add_joints(g, stack);
@@ -309,7 +307,7 @@ uint32_t *gltf_children_first(struct gltf *g)
     bool *open = calloc((size_t)g->lists[GLTF_NODES].count + 1, sizeof *open);
     uint32_t count = 0, height = 0;
     for (uint32_t i = 0; nodes && stack && open && i < g->order_count; i++) {
-        if (g->nodes[g->order[i]].parent != JSON_NONE)
+        if (g->nodes[g->order[i]].parent != GLTF_NONE)
             continue;
         stack[height++] = g->order[i];
         while (height > 0) {
@@ -336,17 +334,17 @@ uint32_t *gltf_children_first(struct gltf *g)
 /* ---- instances ------------------------------------------------------------------------------- */
 
 /* Reads one attribute of the instances; *values is NULL if there is none. */
-static bool read_instances(struct gltf *g, uint32_t attributes, const char *key, const char *type,
-                           uint32_t *count, float **values)
+static bool read_instances(struct gltf *g, const json_t *attributes, const char *key,
+                           const char *type, uint32_t *count, float **values)
 {
     uint32_t accessor = 0, own = 0;
     if (!gltf_reference(g, attributes, key, GLTF_ACCESSORS, &accessor))
         return false;
-    if (accessor == JSON_NONE)
+    if (accessor == GLTF_NONE)
         return true;
     if (!gltf_count(g, accessor, KILN_MAX_MESH_TRIANGLES, "instances", &own))
         return false;
-    if (*count != JSON_NONE && own != *count)
+    if (*count != GLTF_NONE && own != *count)
         return GLTF_SET(g, "the attributes of instances have %u and %u elements", *count, own);
     *count = own;
     *values = gltf_read(g, accessor, type, (struct gltf_range){0, own});
@@ -370,15 +368,15 @@ static void place_instances(const float *moves, const float *turns, const float 
 
 bool gltf_find_instances(struct gltf *g, uint32_t node, struct gltf_instances *instances)
 {
-    const uint32_t json = gltf_element(g, GLTF_NODES, node);
-    const uint32_t extension = gltf_extension(g, json, "EXT_mesh_gpu_instancing");
-    const uint32_t attributes = json_member(&g->json, extension, "attributes");
+    const json_t *json = gltf_element(g, GLTF_NODES, node);
+    const json_t *extension = gltf_extension(json, "EXT_mesh_gpu_instancing");
+    const json_t *attributes = gltf_member(extension, "attributes");
     float *moves = NULL, *turns = NULL, *scales = NULL;
-    uint32_t count = JSON_NONE;
+    uint32_t count = GLTF_NONE;
     bool ok = read_instances(g, attributes, "TRANSLATION", "VEC3", &count, &moves) &&
               read_instances(g, attributes, "ROTATION", "VEC4", &count, &turns) &&
               read_instances(g, attributes, "SCALE", "VEC3", &count, &scales);
-    instances->count = count == JSON_NONE ? 1 : count;
+    instances->count = count == GLTF_NONE ? 1 : count;
     instances->rows = ok ? calloc((size_t)instances->count + 1, sizeof *instances->rows) : NULL;
     if (ok && !instances->rows)
         ok = decode_out_of_memory(g->error);

@@ -81,14 +81,14 @@ static struct gltf_range find_range(uint32_t *indices, uint32_t count)
 
 /* Reads the triangles, and finds the range of vertices that they have. Meshes that share vertices
  * in one accessor have ranges of it, so that a large one is not read whole for each. */
-static bool read_triangles(struct gltf *g, uint32_t json, uint32_t mode, uint32_t vertices,
+static bool read_triangles(struct gltf *g, const json_t *json, uint32_t mode, uint32_t vertices,
                            struct gltf_range *range, struct gltf_primitive *out)
 {
     uint32_t accessor = 0, count = 0;
     *range = (struct gltf_range){0, vertices};
     if (!gltf_reference(g, json, "indices", GLTF_ACCESSORS, &accessor))
         return false;
-    if (accessor == JSON_NONE)
+    if (accessor == GLTF_NONE)
         return vertices <= KILN_MAX_MESH_VERTICES ? put_triangles(g, mode, NULL, vertices, out)
                                                   : decode_refuse_size(g->error);
     if (!gltf_count(g, accessor, 3 * KILN_MAX_MESH_TRIANGLES, "indices", &count))
@@ -215,7 +215,7 @@ bool gltf_put_weights(struct gltf *g, struct gltf_primitive *primitive, uint32_t
     return true;
 }
 
-static bool read_sets(struct gltf *g, uint32_t attributes, struct gltf_range range,
+static bool read_sets(struct gltf *g, const json_t *attributes, struct gltf_range range,
                       uint32_t *joints[MOST_SETS], float *weights[MOST_SETS], uint32_t *sets)
 {
     for (*sets = 0; *sets < MOST_SETS; ++*sets) {
@@ -226,7 +226,7 @@ static bool read_sets(struct gltf *g, uint32_t attributes, struct gltf_range ran
         if (!gltf_reference(g, attributes, joint_key, GLTF_ACCESSORS, &joint) ||
             !gltf_reference(g, attributes, weight_key, GLTF_ACCESSORS, &weight))
             return false;
-        if (joint == JSON_NONE || weight == JSON_NONE)
+        if (joint == GLTF_NONE || weight == GLTF_NONE)
             return true;
         joints[*sets] = gltf_read_integers(g, joint, "VEC4", range);
         weights[*sets] = joints[*sets] ? gltf_read(g, weight, "VEC4", range) : NULL;
@@ -239,7 +239,7 @@ static bool read_sets(struct gltf *g, uint32_t attributes, struct gltf_range ran
     return true;
 }
 
-static bool read_weights(struct gltf *g, uint32_t attributes, struct gltf_range range,
+static bool read_weights(struct gltf *g, const json_t *attributes, struct gltf_range range,
                          struct gltf_primitive *out)
 {
     uint32_t *joints[MOST_SETS] = {NULL}, sets = 0;
@@ -257,23 +257,23 @@ static bool read_weights(struct gltf *g, uint32_t attributes, struct gltf_range 
 /* ---- attributes ------------------------------------------------------------------------------ */
 
 /* Reads an attribute of the vertices; *out is NULL if there is none. */
-static bool read_attribute(struct gltf *g, uint32_t attributes, const char *key, const char *type,
-                           struct gltf_range range, float **out)
+static bool read_attribute(struct gltf *g, const json_t *attributes, const char *key,
+                           const char *type, struct gltf_range range, float **out)
 {
     uint32_t accessor = 0;
     if (!gltf_reference(g, attributes, key, GLTF_ACCESSORS, &accessor))
         return false;
-    if (accessor == JSON_NONE)
+    if (accessor == GLTF_NONE)
         return true;
     *out = gltf_read(g, accessor, type, range);
     return *out != NULL;
 }
 
-static bool read_targets(struct gltf *g, uint32_t json, struct gltf_range range,
+static bool read_targets(struct gltf *g, const json_t *json, struct gltf_range range,
                          struct gltf_primitive *out)
 {
-    const uint32_t targets = json_member(&g->json, json, "targets");
-    const uint32_t count = json_count(&g->json, targets);
+    const json_t *targets = gltf_member(json, "targets");
+    const uint32_t count = gltf_size(targets);
     if (count > MOST_TARGETS)
         return GLTF_SET(g, "a mesh has %u morph targets; allowed are %d", count, MOST_TARGETS);
     if (count == 0)
@@ -283,8 +283,8 @@ static bool read_targets(struct gltf *g, uint32_t json, struct gltf_range range,
         return decode_out_of_memory(g->error);
     out->target_count = count;
     uint32_t number = 0;
-    for (uint32_t i = json_first(&g->json, targets); i != JSON_NONE;
-         i = json_after(&g->json, targets, i)) {
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(targets, i_at)); i_at++) {
         struct gltf_target *target = &out->targets[number++];
         float *positions = NULL, *normals = NULL;
         const bool ok = read_attribute(g, i, "POSITION", "VEC3", range, &positions) &&
@@ -297,15 +297,15 @@ static bool read_targets(struct gltf *g, uint32_t json, struct gltf_range range,
     return true;
 }
 
-static bool read_plain(struct gltf *g, uint32_t json, uint32_t mode, bool uvs, bool weights,
+static bool read_plain(struct gltf *g, const json_t *json, uint32_t mode, bool uvs, bool weights,
                        struct gltf_primitive *out)
 {
-    const uint32_t attributes = json_member(&g->json, json, "attributes");
+    const json_t *attributes = gltf_member(json, "attributes");
     uint32_t accessor = 0, vertices = 0;
     struct gltf_range range;
     if (!gltf_reference(g, attributes, "POSITION", GLTF_ACCESSORS, &accessor))
         return false;
-    if (accessor == JSON_NONE)
+    if (accessor == GLTF_NONE)
         return true;
     if (!gltf_count(g, accessor, UINT32_MAX, "vertices", &vertices) ||
         !read_triangles(g, json, mode, vertices, &range, out))
@@ -326,21 +326,21 @@ static bool read_plain(struct gltf *g, uint32_t json, uint32_t mode, bool uvs, b
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-bool gltf_read_primitive(struct gltf *g, uint32_t json, bool uvs, bool weights,
+bool gltf_read_primitive(struct gltf *g, const json_t *json, bool uvs, bool weights,
                          struct gltf_primitive *primitive)
 {
     *primitive = (struct gltf_primitive){.vertex_count = 0};
     uint32_t mode = MODE_TRIANGLES;
-    const uint32_t said = json_member(&g->json, json, "mode");
-    if (said != JSON_NONE && (!json_index(&g->json, said, &mode) || mode > MODE_FAN))
+    const json_t *said = gltf_member(json, "mode");
+    if (said && (!gltf_index(said, &mode) || mode > MODE_FAN))
         return GLTF_SET(g, "a primitive has a mode that glTF does not have");
     if (!gltf_reference(g, json, "material", GLTF_MATERIALS, &primitive->material))
         return false;
-    if (primitive->material == JSON_NONE)
+    if (primitive->material == GLTF_NONE)
         primitive->material = g->lists[GLTF_MATERIALS].count;
-    const uint32_t draco = gltf_draco_of(g, json);
+    const json_t *draco = gltf_draco_of(g, json);
     bool ok = true;
-    if (draco != JSON_NONE)
+    if (draco)
         ok = gltf_read_draco(g, json, draco, uvs, weights, primitive) &&
              read_targets(g, json, (struct gltf_range){0, primitive->vertex_count}, primitive);
     else if (mode >= MODE_TRIANGLES)
@@ -352,24 +352,21 @@ bool gltf_read_primitive(struct gltf *g, uint32_t json, bool uvs, bool weights,
 
 float *gltf_default_weights(struct gltf *g, uint32_t node, uint32_t count, bool *ok)
 {
-    const uint32_t json = gltf_element(g, GLTF_NODES, node);
-    uint32_t list = json_member(&g->json, json, "weights");
-    if (list == JSON_NONE)
-        list = json_member(&g->json, gltf_element(g, GLTF_MESHES, g->nodes[node].mesh), "weights");
+    const json_t *json = gltf_element(g, GLTF_NODES, node);
+    const json_t *list = gltf_member(json, "weights");
+    if (!list)
+        list = gltf_member(gltf_element(g, GLTF_MESHES, g->nodes[node].mesh), "weights");
     *ok = true;
-    if (count == 0 || json_count(&g->json, list) == 0)
+    if (count == 0 || gltf_size(list) == 0)
         return NULL;
     float *weights = calloc(count, sizeof *weights);
     *ok = weights != NULL;
     if (!weights)
         decode_out_of_memory(g->error);
-    uint32_t number = 0;
-    for (uint32_t i = json_first(&g->json, list); weights && i != JSON_NONE && number < count;
-         i = json_after(&g->json, list, i)) {
+    for (uint32_t i = 0; weights && i < count; i++) {
         double weight = 0.0;
-        if (json_number(&g->json, i, &weight))
-            weights[number] = (float)weight;
-        number++;
+        if (gltf_number(gltf_item(list, i), &weight))
+            weights[i] = (float)weight;
     }
     return weights;
 }

@@ -25,10 +25,10 @@ static bool put_offsets(struct gltf *g, const float *matrices, struct gltf_skin 
 
 bool gltf_read_skin(struct gltf *g, uint32_t skin, struct gltf_skin *out)
 {
-    const uint32_t json = gltf_element(g, GLTF_SKINS, skin);
-    const uint32_t joints = json_member(&g->json, json, "joints");
+    const json_t *json = gltf_element(g, GLTF_SKINS, skin);
+    const json_t *joints = gltf_member(json, "joints");
     uint32_t accessor = 0;
-    *out = (struct gltf_skin){.count = json_count(&g->json, joints)};
+    *out = (struct gltf_skin){.count = gltf_size(joints)};
     if (out->count == 0 || out->count > KILN_MAX_SKIN_JOINTS)
         return GLTF_SET(g, "skin %u has %u joints; allowed are 1 to %d", skin, out->count,
                         KILN_MAX_SKIN_JOINTS);
@@ -36,14 +36,14 @@ bool gltf_read_skin(struct gltf *g, uint32_t skin, struct gltf_skin *out)
     if (!out->bones)
         return decode_out_of_memory(g->error);
     uint32_t number = 0;
-    for (uint32_t i = json_first(&g->json, joints); i != JSON_NONE;
-         i = json_after(&g->json, joints, i)) {
-        (void)json_index(&g->json, i, &out->bones[number].node); /* gltf_find_nodes has checked */
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(joints, i_at)); i_at++) {
+        (void)gltf_index(i, &out->bones[number].node); /* gltf_find_nodes has checked */
         memcpy(out->bones[number++].offset, identity, sizeof identity);
     }
     if (!gltf_reference(g, json, "inverseBindMatrices", GLTF_ACCESSORS, &accessor))
         return false;
-    if (accessor == JSON_NONE)
+    if (accessor == GLTF_NONE)
         return true;
     float *matrices = gltf_read(g, accessor, "MAT4", (struct gltf_range){0, out->count});
     const bool ok = matrices && put_offsets(g, matrices, out);

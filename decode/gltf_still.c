@@ -28,7 +28,6 @@ struct still {
 static bool rank_materials(struct still *s)
 {
     struct gltf *g = s->g;
-    const struct json *json = &g->json;
     const uint32_t materials = g->lists[GLTF_MATERIALS].count;
     uint32_t next = 0, number = 0;
     uint32_t *nodes = gltf_children_first(g);
@@ -40,10 +39,11 @@ static bool rank_materials(struct still *s)
     for (uint32_t i = 0; i <= materials; i++)
         s->ranks[i] = materials;
     for (uint32_t i = 0; i < g->order_count; i++) {
-        const uint32_t mesh = gltf_element(g, GLTF_MESHES, g->nodes[nodes[i]].mesh);
-        const uint32_t list = json_member(json, mesh, "primitives");
-        for (uint32_t p = json_first(json, list); p != JSON_NONE; p = json_after(json, list, p)) {
-            if (json_index(json, json_member(json, p, "material"), &number) && number < materials &&
+        const json_t *mesh = gltf_element(g, GLTF_MESHES, g->nodes[nodes[i]].mesh);
+        const json_t *list = gltf_member(mesh, "primitives");
+        size_t p_at = 0;
+        for (const json_t *p; (p = gltf_item(list, p_at)); p_at++) {
+            if (gltf_index(gltf_member(p, "material"), &number) && number < materials &&
                 s->ranks[number] == materials)
                 s->ranks[number] = next++;
         }
@@ -173,7 +173,7 @@ static bool place_by_bones(struct still *s, struct gltf_primitive *primitive)
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-static bool make_mesh(struct still *s, uint32_t node, uint32_t json, size_t *number)
+static bool make_mesh(struct still *s, uint32_t node, const json_t *json, size_t *number)
 {
     struct gltf *g = s->g;
     struct gltf_primitive primitive;
@@ -198,8 +198,7 @@ static bool make_mesh(struct still *s, uint32_t node, uint32_t json, size_t *num
 static bool is_shared(const struct still *s, uint32_t node)
 {
     const struct gltf *g = s->g;
-    return !s->bones &&
-           json_member(&g->json, g->lists[GLTF_NODES].values[node], "weights") == JSON_NONE;
+    return !s->bones && gltf_member(gltf_element(g, GLTF_NODES, node), "weights") == NULL;
 }
 
 static bool place_mesh(struct still *s, uint32_t node, const struct gltf_instances *instances,
@@ -221,12 +220,12 @@ static bool add_primitives(struct still *s, uint32_t node, const struct gltf_ins
 {
     struct gltf *g = s->g;
     const uint32_t mesh = g->nodes[node].mesh;
-    const uint32_t list = json_member(&g->json, g->lists[GLTF_MESHES].values[mesh], "primitives");
+    const json_t *list = gltf_member(gltf_element(g, GLTF_MESHES, mesh), "primitives");
     const bool shared = is_shared(s, node);
     size_t next = shared ? s->made[mesh] : 0;
     const bool is_made = next > 0;
-    for (uint32_t i = json_first(&g->json, list); i != JSON_NONE;
-         i = json_after(&g->json, list, i)) {
+    size_t i_at = 0;
+    for (const json_t *i; (i = gltf_item(list, i_at)); i_at++) {
         size_t number = next - 1;
         if (!is_made && !make_mesh(s, node, i, &number))
             return false;
@@ -244,7 +243,7 @@ static bool add_node(struct still *s, uint32_t node)
     struct gltf *g = s->g;
     struct gltf_instances instances = {.count = 0};
     bool ok = gltf_find_instances(g, node, &instances) &&
-              (g->nodes[node].skin == JSON_NONE || find_bones(s, node));
+              (g->nodes[node].skin == GLTF_NONE || find_bones(s, node));
     ok = ok && add_primitives(s, node, &instances);
     free(instances.rows);
     free(s->bones);
@@ -263,7 +262,7 @@ bool gltf_still(struct gltf *g, struct decode_model *model)
     ok = ok && rank_materials(&s);
     for (uint32_t i = 0; ok && i < g->order_count; i++) {
         const struct gltf_node *node = &g->nodes[g->order[i]];
-        if (node->shown && node->mesh != JSON_NONE)
+        if (node->shown && node->mesh != GLTF_NONE)
             ok = add_node(&s, g->order[i]);
     }
     free(s.made);

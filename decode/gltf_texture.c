@@ -26,19 +26,17 @@ static void find_sine(double angle, double *sine, double *cosine)
     *cosine = part == 0 ? c : part == 1 ? -s : part == 2 ? -c : s;
 }
 
-static double number_of(const struct gltf *g, uint32_t value, double otherwise)
+static double number_of(const json_t *value, double otherwise)
 {
     double number = otherwise;
-    return json_number(&g->json, value, &number) ? number : otherwise;
+    return gltf_number(value, &number) ? number : otherwise;
 }
 
 /* Gets a pair of numbers. */
-static void get_pair(const struct gltf *g, uint32_t array, double otherwise, double pair[2])
+static void get_pair(const json_t *array, double otherwise, double pair[2])
 {
-    const uint32_t first = json_first(&g->json, array);
-    const uint32_t second = first == JSON_NONE ? JSON_NONE : json_after(&g->json, array, first);
-    pair[0] = number_of(g, first, otherwise);
-    pair[1] = number_of(g, second, otherwise);
+    for (size_t i = 0; i < 2; i++)
+        pair[i] = number_of(gltf_item(array, i), otherwise);
 }
 
 /* What an extension says of texture coordinates. */
@@ -46,21 +44,21 @@ struct transform {
     double offset[2], scale[2], sine, cosine;
 };
 
-static struct transform get_transform(const struct gltf *g, uint32_t json)
+static struct transform get_transform(const json_t *json)
 {
     struct transform t;
-    get_pair(g, json_member(&g->json, json, "offset"), 0.0, t.offset);
-    get_pair(g, json_member(&g->json, json, "scale"), 1.0, t.scale);
-    find_sine(number_of(g, json_member(&g->json, json, "rotation"), 0.0), &t.sine, &t.cosine);
+    get_pair(gltf_member(json, "offset"), 0.0, t.offset);
+    get_pair(gltf_member(json, "scale"), 1.0, t.scale);
+    find_sine(number_of(gltf_member(json, "rotation"), 0.0), &t.sine, &t.cosine);
     return t;
 }
 
-bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3])
+bool gltf_get_transform(const json_t *texture, double rows[2][3])
 {
-    const uint32_t json = gltf_extension(g, texture, "KHR_texture_transform");
-    if (json == JSON_NONE)
+    const json_t *json = gltf_extension(texture, "KHR_texture_transform");
+    if (!json)
         return false;
-    const struct transform t = get_transform(g, json);
+    const struct transform t = get_transform(json);
     const double x[3] = {t.cosine * t.scale[0], t.sine * t.scale[1], t.offset[0]};
     const double y[3] = {-t.sine * t.scale[0], t.cosine * t.scale[1], t.offset[1]};
     /* The extension's numbers count from the top of a picture, before and behind it. */
@@ -69,9 +67,9 @@ bool gltf_get_transform(const struct gltf *g, uint32_t texture, double rows[2][3
     return true;
 }
 
-static void transform(const struct gltf *g, uint32_t json, struct gltf_primitive *primitive)
+static void transform(const json_t *json, struct gltf_primitive *primitive)
 {
-    const struct transform t = get_transform(g, json);
+    const struct transform t = get_transform(json);
     for (size_t i = 0; i < primitive->vertex_count; i++) {
         float *uv = primitive->uvs[i];
         const double u = t.scale[0] * (double)uv[0], v = t.scale[1] * (double)uv[1];
@@ -89,17 +87,16 @@ static void turn(float (*uvs)[2], size_t count)
 
 void gltf_place_uvs(const struct gltf *g, struct gltf_primitive *primitive)
 {
-    const uint32_t material = gltf_element(g, GLTF_MATERIALS, primitive->material);
-    const uint32_t looks = json_member(&g->json, material, "pbrMetallicRoughness");
-    const uint32_t texture = json_member(&g->json, looks, "baseColorTexture");
-    const uint32_t extension = gltf_extension(g, texture, "KHR_texture_transform");
-    uint32_t set = json_member(&g->json, extension, "texCoord");
-    if (set == JSON_NONE)
-        set = json_member(&g->json, texture, "texCoord");
+    const json_t *material = gltf_element(g, GLTF_MATERIALS, primitive->material);
+    const json_t *looks = gltf_member(material, "pbrMetallicRoughness");
+    const json_t *texture = gltf_member(looks, "baseColorTexture");
+    const json_t *extension = gltf_extension(texture, "KHR_texture_transform");
+    const json_t *set = gltf_member(extension, "texCoord");
+    if (!set)
+        set = gltf_member(texture, "texCoord");
     /* a mesh that is read with its materials has the transform in them */
-    if (primitive->uvs && extension != JSON_NONE && number_of(g, set, 0.0) == 0.0 &&
-        !g->wanted->materials)
-        transform(g, extension, primitive);
+    if (primitive->uvs && extension && number_of(set, 0.0) == 0.0 && !g->wanted->materials)
+        transform(extension, primitive);
     turn(primitive->uvs, primitive->vertex_count);
     turn(primitive->second_uvs, primitive->vertex_count);
 }

@@ -361,12 +361,15 @@ static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
     case KILN_DECODE_VIDEO:
         return kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, error);
     case KILN_DECODE_DRACO:
+        decode_mesh_begin();
         return decode_draco_begin(error);
+    case KILN_DECODE_MESH:
+        decode_mesh_begin();
+        break;
     case KILN_DECODE_OPENEXR:
         return decode_exr_more_begin(error);
     case KILN_DECODE_PNG:
     case KILN_DECODE_EXR:
-    case KILN_DECODE_MESH:
     case KILN_DECODE_KIND_COUNT:
         break;
     }

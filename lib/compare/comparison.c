@@ -77,15 +77,8 @@ static int order(const struct comparison *comparison, const struct kiln_footage_
 {
     if (!has[0] || !has[1])
         return has[0] ? -1 : 1;
-    switch (kiln_footage_kind(comparison->frames.footage[0])) {
-    case KILN_FOOTAGE_STILL:
-        return 0;
-    case KILN_FOOTAGE_FOLDER:
+    if (kiln_footage_kind(comparison->frames.footage[0]) == KILN_FOOTAGE_FOLDER)
         return kiln_order_names(next[0].name, next[1].name);
-    case KILN_FOOTAGE_NUMBERED:
-    case KILN_FOOTAGE_VIDEO:
-        break;
-    }
     return (next[0].number > next[1].number) - (next[0].number < next[1].number);
 }
 
@@ -190,8 +183,8 @@ static bool check_params(const struct kiln_compare_params *params, struct kiln_e
     return true;
 }
 
-/* Checks that the two sides can be paired: folders by names, patterns and videos by numbers, a
- * picture with a picture. */
+/* Checks that the two sides can be paired: folders by names, patterns and videos by numbers, and a
+ * picture with a picture or, as its first frame, with a video. */
 static bool check_kinds(const struct comparison *comparison, struct kiln_error *error)
 {
     static const char *const names[] = {
@@ -202,8 +195,10 @@ static bool check_kinds(const struct comparison *comparison, struct kiln_error *
     };
     enum kiln_footage_kind a = kiln_footage_kind(comparison->frames.footage[0]);
     enum kiln_footage_kind b = kiln_footage_kind(comparison->frames.footage[1]);
+    const bool one_frame = (a == KILN_FOOTAGE_STILL && b == KILN_FOOTAGE_VIDEO) ||
+                           (a == KILN_FOOTAGE_VIDEO && b == KILN_FOOTAGE_STILL);
     bool numbers = a >= KILN_FOOTAGE_NUMBERED && b >= KILN_FOOTAGE_NUMBERED;
-    return a == b || numbers ||
+    return a == b || numbers || one_frame ||
            kiln_error_set(error, KILN_USAGE, "%s is %s and %s is %s: they cannot be compared",
                           kiln_footage_path(comparison->frames.footage[0]), names[a],
                           kiln_footage_path(comparison->frames.footage[1]), names[b]);
@@ -255,8 +250,10 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
         if (i == 0 || strcmp(paths[0], paths[1]) != 0)
             kiln_footage_set_log(comparison->frames.footage[i], &params->log);
     }
-    comparison->result.sequence =
-        kiln_footage_kind(comparison->frames.footage[0]) != KILN_FOOTAGE_STILL;
+    for (int i = 0; i < 2; i++)
+        comparison->result.sequence =
+            comparison->result.sequence ||
+            kiln_footage_kind(comparison->frames.footage[i]) != KILN_FOOTAGE_STILL;
     comparison->result.column_count = comparison->frames.set.count;
     memcpy(comparison->result.columns, comparison->frames.set.columns,
            sizeof comparison->result.columns);

@@ -14,8 +14,10 @@
 static struct kiln_mesh_result *empty_result(void)
 {
     static struct kiln_mesh_result *result;
-    if (!result)
+    if (!result) {
+        decode_mesh_begin();
         result = calloc(1, sizeof *result);
+    }
     require(result != NULL, "no memory");
     struct kiln_skin_result *skin = &result->skin;
     free(skin->deltas);

@@ -50,8 +50,8 @@ said 6 "libav.*cannot be loaded; install Debian's package" \
     "kiln render /usr/share/kiln/scenes/fire_beam.yaml -o /tmp/beam.mp4 --frames 0-3 --size 320x180 -q"
 
 # With the recommended packages everything works, and the pixels are those of the build KILN.
-apt_install "$root" libavcodec59 libavformat59 libavutil57 libswscale6 libjpeg62-turbo liblcms2-2 \
-    libtiff6 libwebp7 libwebpdemux2 libseccomp2 man-db
+apt_install "$root" libavcodec59 libavformat59 libavutil57 libswscale6 libjansson4 libjpeg62-turbo \
+    liblcms2-2 libtiff6 libwebp7 libwebpdemux2 libseccomp2 man-db
 said 0 "" "kiln render /usr/share/kiln/scenes/campfire.yaml -o /tmp/fire.mp4 --frames 0-9 --size 320x180 -q"
 said 0 "" "kiln render /usr/share/kiln/scenes/campfire.yaml -o /tmp/fire.png --frames 9 --size 320x180 -q"
 said 0 "sandbox: " "kiln devices --verbose | grep sandbox || kiln devices | grep sandbox"

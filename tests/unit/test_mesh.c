@@ -325,7 +325,7 @@ static void nonsense_is_refused(void **state)
                 "the mesh has no triangle with an area");
     refuse_text("{\"asset\": {\"version\": \"2.0\"}", "cut.gltf", "the JSON is cut short");
     refuse_text("{\"asset\": {\"version\": \"2.0\"},\n\n nodes: []}", "yaml.gltf",
-                "line 3 of the JSON is broken");
+                "line 3 of the JSON is broken: string or '}' expected near 'nodes'");
     refuse_text("{}", "none.gltf",
                 "the file does not say of which version of glTF it is: 'asset.version' is missing; "
                 "allowed is \"2.0\"");

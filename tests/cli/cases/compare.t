@@ -359,6 +359,21 @@ $ for kind in mov avi mkv; do
 1|avi cut short: 3
 1|mkv: 0
 1|mkv cut short: 3
+$ kiln compare v_00.png v.mp4 --tolerance flip.mean=0.2 | grep -v "  [a-z]*[.]" | head -12
+1|  v_00.png                 same                0.032378      16 %
+1|  1                        extra       only in the test
+1|  2                        extra       only in the test
+1|  3                        extra       only in the test
+1|  4                        extra       only in the test
+1|  5                        extra       only in the test
+1|  6                        extra       only in the test
+1|  7                        extra       only in the test
+1|  8                        extra       only in the test
+1|  9                        extra       only in the test
+1|v.mp4 against v_00.png: different
+1|  10 frames: 1 same, 9 extra; the worst is 1
+$ kiln compare -q v.mp4 v_00.png
+= 1
 $ cp grey.png fake.mp4
 $ kiln compare -q fake.mp4 v.mp4 2>&1 | sed 's/ (.*//'
 1|fake.mp4: the file is not a video; allowed are MP4, MOV, Matroska, WebM, AVI, GIF, APNG or animated WebP files
