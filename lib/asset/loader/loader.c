@@ -224,8 +224,11 @@ struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decod
         kiln_helper_end(&helper);
     const uint64_t most_memory =
         loader ? kiln_budget_left(loader->params.budget, KILN_LIMIT_memory) : UINT64_MAX;
-    return helper ? helper
-                  : kiln_helper_start(kind, most_memory, kiln_loader_caller(loader), error);
+    if (!helper)
+        helper = kiln_helper_start(kind, most_memory, kiln_loader_caller(loader), error);
+    if (helper)
+        kiln_helper_begin(helper);
+    return helper;
 }
 
 void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **helper)
