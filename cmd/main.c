@@ -168,12 +168,15 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = check_environment(command);
         struct limits limits = {.budget = NULL};
-        if (code == 0) /* before the sandbox, which might forbid the file of events */
-            code = events_open(command, &arguments);
         /* A batch passes --sandbox and --limits on to its jobs. It has none itself, since a sandbox
          * would keep it from starting them. */
         const bool is_batch = arguments_last(&arguments, "batch") != NULL;
-        if (code == 0 && !is_batch && has_option(command, "sandbox")) /* before any thread starts */
+        const bool has_sandbox = !is_batch && has_option(command, "sandbox");
+        if (code == 0 && has_sandbox)
+            sandbox_close_inherited(&arguments);
+        if (code == 0) /* before the sandbox, which might forbid the file of events */
+            code = events_open(command, &arguments);
+        if (code == 0 && has_sandbox) /* before any thread starts */
             code = sandbox_enter(command, &arguments, &arguments.sandboxed);
         if (code == 0 && !is_batch && has_option(command, "limits"))
             code = limits_begin(&limits, command->name, &arguments);

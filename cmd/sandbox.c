@@ -7,9 +7,11 @@
  * of events is opened, which may lie elsewhere. */
 #include "sandbox.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "report.h"
 #include "scene_in.h"
@@ -26,14 +28,16 @@ struct allowed_paths {
 /* ---- what the arguments name ----------------------------------------------------------------- */
 
 /* Makes a file that an operand names readable. Pictures that a scene uses lie in the scene's
- * folder, so normally the whole folder becomes readable. With `alone` only the file does, because
- * --asset-root names the folder of the pictures. Then a file that is a symbolic link is left out:
- * whoever made the link could lead it to any file. */
-static bool add_file(struct allowed_paths *allowed, const char *path, bool alone)
+ * folder, so normally the whole folder becomes readable. With `root`, the folder of --asset-root,
+ * only the file does. A file in the root is readable with it and gets no right of its own, since
+ * the path might lead elsewhere by now. A symbolic link elsewhere is left out: whoever made it
+ * could lead it to any file. */
+static bool add_file(struct allowed_paths *allowed, const char *path, const char *root)
 {
     struct stat status;
-    if (alone) {
-        if (lstat(path, &status) != 0 || !S_ISLNK(status.st_mode))
+    if (root) {
+        if (!kiln_scene_is_below(path, root) &&
+            (lstat(path, &status) != 0 || !S_ISLNK(status.st_mode)))
             allowed->readable[allowed->readable_count++] = path;
         return true;
     }
@@ -61,7 +65,7 @@ static bool collect(struct allowed_paths *allowed, const struct command *command
                     const struct arguments *arguments)
 {
     const size_t count = arguments->use_count + arguments->operand_count + 1;
-    const bool rooted = arguments_last(arguments, "asset-root") != NULL;
+    const char *root = arguments_text(arguments, "asset-root", NULL);
     allowed->readable = calloc(2 * count, sizeof *allowed->readable);
     allowed->writable = calloc(count, sizeof *allowed->writable);
     allowed->folders = calloc(count, sizeof *allowed->folders);
@@ -81,7 +85,7 @@ static bool collect(struct allowed_paths *allowed, const struct command *command
         const bool stream = scene_in_is_stream(path);
         if (command->access == ACCESS_WRITE)
             allowed->writable[allowed->writable_count++] = path;
-        else if (!(stream && rooted) && !add_file(allowed, stream ? "-" : path, rooted))
+        else if (!(stream && root) && !add_file(allowed, stream ? "-" : path, root))
             return false;
     }
     return true;
@@ -98,7 +102,7 @@ static void free_allowed_paths(struct allowed_paths *allowed)
 
 /* ---- entering -------------------------------------------------------------------------------- */
 
-/* Reads the mode that KILN_SANDBOX sets; --sandbox may replace it. */
+/* Reads the mode that KILN_SANDBOX sets; --sandbox may replace it. Returns false if it is none. */
 static bool read_environment(enum mode *mode)
 {
     static const char *const modes[] = {"on", "require", "off"};
@@ -112,7 +116,6 @@ static bool read_environment(enum mode *mode)
             return true;
         }
     }
-    report(KILN_USAGE, "KILN_SANDBOX: found '%s'; allowed are on, require or off", text);
     return false;
 }
 
@@ -136,12 +139,57 @@ static int confine(const struct command *command, const struct arguments *argume
     return code;
 }
 
+/* ---- descriptors of others ------------------------------------------------------------------- */
+
+/* Finds the least descriptor from `first` on that a text names, as in "ndjson:fd=3" or
+ * "/dev/fd/63". Returns `least` if it names none below that. */
+static unsigned least_named(const char *text, unsigned first, unsigned least)
+{
+    for (const char *at = text; at && (at = strstr(at, "fd"));) {
+        at += 2;
+        if (*at != '=' && *at != '/')
+            continue;
+        const unsigned long number = strtoul(at + 1, NULL, 10);
+        if (number >= first && number < least)
+            least = (unsigned)number;
+    }
+    return least;
+}
+
+static void close_from_to(unsigned first, unsigned last)
+{
+    if (close_range(first, last, 0) == 0)
+        return;
+    const long most = sysconf(_SC_OPEN_MAX); /* the kernel or a container has no close_range */
+    for (unsigned file = first; file <= last && file < (unsigned long)most; file++)
+        close((int)file);
+}
+
+void sandbox_close_inherited(const struct arguments *arguments)
+{
+    enum mode mode;
+    if (!read_environment(&mode) || arguments_choice(arguments, "sandbox", mode) == MODE_OFF)
+        return;
+    for (unsigned first = STDERR_FILENO + 1, next; first < INT_MAX; first = next + 1) {
+        next = INT_MAX;
+        for (size_t i = 0; i < arguments->use_count; i++)
+            next = least_named(arguments->uses[i].text, first, next);
+        for (size_t i = 0; i < arguments->operand_count; i++)
+            next = least_named(arguments->operands[i], first, next);
+        if (next > first)
+            close_from_to(first, next - 1);
+    }
+}
+
+/* ---- the whole ------------------------------------------------------------------------------- */
+
 int sandbox_enter(const struct command *command, const struct arguments *arguments, bool *sandboxed)
 {
     const char *device = arguments_text(arguments, "device", KILN_DEVICE_CPU);
     enum mode mode;
     if (!read_environment(&mode))
-        return KILN_USAGE;
+        return report(KILN_USAGE, "KILN_SANDBOX: found '%s'; allowed are on, require or off",
+                      kiln_environment("KILN_SANDBOX"));
     mode = (enum mode)arguments_choice(arguments, "sandbox", mode);
     if (mode == MODE_OFF)
         return 0;

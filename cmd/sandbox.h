@@ -15,6 +15,11 @@
         .fallback = "the environment's KILN_SANDBOX, or else off"                                  \
     }
 
+/* Closes all descriptors that the process was started with, except the standard streams and those
+ * that an argument names ("/dev/fd/63", "ndjson:fd=3"), if --sandbox or KILN_SANDBOX asks for a
+ * sandbox. A job that is taken over could use them. Call it before kiln opens a file. */
+void sandbox_close_inherited(const struct arguments *arguments);
+
 /* Confines the process to the files that its arguments name, if --sandbox or KILN_SANDBOX asks for
  * that, and sets *sandboxed then. Call it before the first thread starts. Returns 0, or the exit
  * code after reporting. */

@@ -33,6 +33,8 @@ static const uint64_t most_memory_of[] = {
 enum {
     MOST_CPU_SECONDS = 3600, /* for all files; kiln waits less long for one file or frame */
     MOST_DESCRIPTORS = 16,   /* the three of every process, the socket, and files from kiln */
+    MOST_STACK = 8 << 20,    /* bytes; the usual limit, under which the libraries are tested */
+    OTHER_SPACE = 64 << 20,  /* bytes of address space beyond the memory: gaps for alignment */
 };
 
 /* The limit of memory that this process has set, in bytes; 0 if a lower limit was there already. */
@@ -50,8 +52,14 @@ bool decode_out_of_memory(struct kiln_error *error)
                           (unsigned long long)(own_limit >> 20));
 }
 
-/* Returns the bytes of data in use, from the sixth number of /proc/self/statm. */
-static uint64_t bytes_in_use(void)
+/* What the process takes before it decodes, in bytes. */
+struct in_use {
+    uint64_t space; /* the size of its address space */
+    uint64_t data;  /* what RLIMIT_DATA counts */
+};
+
+/* Finds what is in use, from the first and sixth number of /proc/self/statm. */
+static struct in_use find_in_use(void)
 {
     char text[256] = "";
     FILE *file = fopen("/proc/self/statm", "re");
@@ -66,8 +74,11 @@ static uint64_t bytes_in_use(void)
         number = number ? number + 1 : NULL;
     }
     /* In kiln's sandbox, /proc cannot be read. The libraries take less than this. */
-    const uint64_t unknown = (uint64_t)256 << 20;
-    return number ? strtoull(number, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : unknown;
+    const struct in_use unknown = {(uint64_t)1 << 30, (uint64_t)256 << 20};
+    const uint64_t page = (uint64_t)sysconf(_SC_PAGESIZE);
+    return number
+               ? (struct in_use){strtoull(text, NULL, 10) * page, strtoull(number, NULL, 10) * page}
+               : unknown;
 }
 
 /* Lowers a resource limit. Returns true if the soft limit was higher. */
@@ -86,6 +97,7 @@ static bool lower(int resource, uint64_t soft, uint64_t hard)
 static void limit_resources(enum kiln_decode_kind kind, uint64_t most_memory)
 {
     struct rlimit space;
+    const struct in_use now = find_in_use();
     const uint64_t own = most_memory_of[kind];
     const uint64_t most = own < most_memory ? own : most_memory;
     lower(RLIMIT_CORE, 0, 0);
@@ -94,10 +106,16 @@ static void limit_resources(enum kiln_decode_kind kind, uint64_t most_memory)
     lower(RLIMIT_NOFILE, MOST_DESCRIPTORS, MOST_DESCRIPTORS);
     if (kind != KILN_DECODE_VIDEO)
         lower(RLIMIT_CPU, MOST_CPU_SECONDS, MOST_CPU_SECONDS);
-    /* Sanitizers have tables that are larger than any limit, so there is no limit with them. */
-    if (!KILN_UNCONFINED && lower(RLIMIT_DATA, bytes_in_use() + most, bytes_in_use() + most) &&
+    lower(RLIMIT_STACK, MOST_STACK, MOST_STACK);
+    /* Sanitizers have tables that are larger than any limit, so there is no limit with them.
+     * RLIMIT_DATA counts neither the stack nor memory that is only read, whose tables of pages take
+     * memory of the kernel: the address space is limited, too, to what all decoders stay below. */
+    if (!KILN_UNCONFINED && lower(RLIMIT_DATA, now.data + most, now.data + most) &&
         getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY)
         own_limit = most;
+    if (!KILN_UNCONFINED)
+        lower(RLIMIT_AS, now.space + most + MOST_STACK + OTHER_SPACE,
+              now.space + most + MOST_STACK + OTHER_SPACE);
     is_limited = most_memory < own;
 }
 
@@ -110,47 +128,29 @@ static void limit_resources(enum kiln_decode_kind kind, uint64_t most_memory)
         .number = SCMP_SYS(name), .argument = which, .mask = bits                                  \
     }
 
+/* Lists all that the libraries of any kind use, and no more. Sending needs no call but write, which
+ * leaves no way to send descriptors, addresses or urgent data. */
 static const struct kiln_system_call allowed[] = {
+    CALL(recvmsg), /* requests from kiln, with descriptors */
+    CALL(write),   /* answers */
     CALL(read),
-    CALL(readv),
     CALL(pread64),
-    CALL(write),
-    CALL(writev),
     CALL(lseek),
-    CALL(_llseek),
     CALL(close),
-    CALL(fstat),
-    CALL(fstat64),
-    /* the only socket is the one to kiln */
-    CALL(recvmsg),
-    CALL(recvfrom),
-    CALL(recv),
-    CALL(sendto),
-    CALL(send),
-    CALL(sendmsg),
-    CALL(poll),
-    CALL(ppoll),
     /* memory, but none that is executable */
     CALL(brk),
     CALL(munmap),
     CALL(mremap),
     CALL(madvise),
     CALL_WITHOUT(mprotect, 2, PROT_EXEC),
+    CALL(sysinfo), /* qsort of the C library asks how much memory there is */
     CALL(futex),
-    CALL(sched_yield),
+    CALL(clock_gettime), /* where the kernel's clock is no memory of the process */
+    CALL(gettimeofday),
+    /* abort */
     CALL(getpid),
     CALL(gettid),
-    CALL(sched_getaffinity),
-    CALL(clock_gettime),
-    CALL(clock_getres),
-    CALL(gettimeofday),
-    CALL(time),
-    CALL(times),
-    CALL(getrandom),
-    CALL(sysinfo),
-    CALL(rt_sigreturn),
-    CALL(sigreturn),
-    CALL(restart_syscall),
+    CALL(restart_syscall), /* after SIGSTOP and SIGCONT */
     CALL(exit),
     CALL(exit_group),
 };

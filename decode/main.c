@@ -2,12 +2,12 @@
  * itself, and then decodes the files that kiln sends, one by one, until kiln's end of the socket
  * closes. Pictures and meshes are read as a whole; a video is read and sent frame by frame. */
 #include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,26 +18,18 @@
 
 /* ---- the socket ------------------------------------------------------------------------------ */
 
-/* Ends the process when kiln has closed its end of the socket. */
-static void on_socket(int signal)
-{
-    (void)signal;
-    struct pollfd socket = {.fd = KILN_DECODE_SOCKET};
-    if (poll(&socket, 1, 0) > 0 && (socket.revents & (POLLHUP | POLLERR)))
-        _exit(0);
-}
-
-static bool watch_socket(void)
+/* Ignores the signals of kiln's terminal, since kiln decides when this process ends: it kills it,
+ * and if kiln itself is killed, the kernel does, also while libraries are opened. Returns false if
+ * kiln has not started this process, or has ended already. */
+static bool begin_process(void)
 {
     struct stat status;
-    struct sigaction action = {.sa_handler = on_socket, .sa_flags = SA_RESTART};
-    static const int ignored[] = {SIGINT, SIGQUIT, SIGHUP, SIGPIPE}; /* from kiln's terminal */
+    struct pollfd socket = {.fd = KILN_DECODE_SOCKET};
+    static const int ignored[] = {SIGINT, SIGQUIT, SIGHUP, SIGPIPE};
     for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++)
         signal(ignored[i], SIG_IGN);
     return fstat(KILN_DECODE_SOCKET, &status) == 0 && S_ISSOCK(status.st_mode) &&
-           sigaction(SIGIO, &action, NULL) == 0 &&
-           fcntl(KILN_DECODE_SOCKET, F_SETOWN, getpid()) == 0 &&
-           fcntl(KILN_DECODE_SOCKET, F_SETFL, O_ASYNC) == 0;
+           prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) == 0 && poll(&socket, 1, 0) == 0;
 }
 
 static void send_bytes(const void *bytes, size_t size)
@@ -394,7 +386,7 @@ int main(int argc, char **argv)
 {
     enum kiln_decode_kind kind;
     struct kiln_error error = {0};
-    if (argc != 3 || !find_kind(argv[1], &kind) || !watch_socket()) {
+    if (argc != 3 || !find_kind(argv[1], &kind) || !begin_process()) {
         fprintf(stderr, "kiln-decode " KILN_VERSION " is a part of kiln, which starts it.\n");
         return KILN_USAGE;
     }

@@ -141,10 +141,11 @@ struct kiln_scene_params {
 };
 KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 
-/* Reads and validates a scene file. Returns the scene, which the caller destroys, or NULL with
- * KILN_INVALID_INPUT when the scene is wrong or the file does not exist, KILN_USAGE for an override
- * that is not "key=value", KILN_IO when reading fails, KILN_OVER_LIMIT, KILN_INTERRUPTED, or
- * KILN_DEVICE_FAILED when memory is short. */
+/* Reads and validates a scene file. A file whose path enters the asset root of `params` is opened
+ * below the root, whatever links are there; links in other paths are followed. Returns the scene,
+ * which the caller destroys, or NULL with KILN_INVALID_INPUT when the scene is wrong or the file
+ * does not exist, KILN_USAGE for an override that is not "key=value", KILN_IO when reading fails,
+ * KILN_OVER_LIMIT, KILN_INTERRUPTED, or KILN_DEVICE_FAILED when memory is short. */
 KILN_API struct kiln_scene *
 kiln_scene_load(const char *path, const struct kiln_scene_params *params, struct kiln_error *error);
 

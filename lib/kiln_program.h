@@ -22,6 +22,12 @@ bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *
 bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
                        struct kiln_error *error);
 
+/* Does what kiln_claims_read does, for a file that was opened. `status` is what fstat says of it,
+ * so it is claimed even if another file has its path by now. */
+struct stat;
+bool kiln_claims_read_open(struct kiln_claims *claims, const char *path, const char *what,
+                           const struct stat *status, struct kiln_error *error);
+
 /* Visits the absolute path of each declared file to read that exists, in no particular order. */
 void kiln_claims_visit_read(const struct kiln_claims *claims,
                             void (*visit)(void *user, const char *path), void *user);
@@ -70,6 +76,10 @@ bool kiln_scene_visit_keys(void (*visit)(void *user, const struct kiln_option_ke
 
 /* Returns the introduction of the reference, a static text. */
 const char *kiln_scene_introduction(void);
+
+/* Returns whether a scene file is opened below the asset root: whether its path, as it is given,
+ * enters the root. Such a file is read only if it lies there (kiln_scene_load). */
+bool kiln_scene_is_below(const char *path, const char *asset_root);
 
 /* Visits the names of the systems in a scene file, even if the scene is not valid. Returns false
  * with the error of kiln_scene_load when the file cannot be read as YAML. */

@@ -38,10 +38,12 @@ KILN_EMPTY(kiln_sandbox_params, kiln_sandbox_defaults)
 /* Confines this process and all that it starts, until they end. Files can be opened only below the
  * folders of `params`, in kiln's cache of distance fields and, to read, where the system's
  * libraries and files of the C library lie. The only program that can be started is kiln-decode. No
- * socket can be opened, and no other process can be traced or sent a signal. Call it before the
- * first thread is started, and render on the device "cpu": drivers of OpenGL need more rights.
- * Returns false with an error when the process cannot be confined; it may then have lost some
- * rights already. */
+ * socket can be opened, and no other process can be traced or sent a signal. Of ioctl and fcntl,
+ * only the commands remain that change nothing but the process itself; those that change a
+ * terminal, a pipe or another open file fail with EPERM. Descriptors that are open stay open, and
+ * can be read and written: close those that the job must not have. Call it before the first thread
+ * is started, and render on the device "cpu": drivers of OpenGL need more rights. Returns false
+ * with an error when the process cannot be confined; it may then have lost some rights already. */
 KILN_API bool kiln_sandbox_enter(const struct kiln_sandbox_params *params,
                                  struct kiln_error *error);
 

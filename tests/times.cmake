@@ -22,24 +22,24 @@ set(kiln_test_times
         faults.kill_flipbook faults.starved_mp4 fuzz.answers fuzz.part gpu.backdrop gpu.backdrop_turned
         gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
         gpu.small_billboards gpu.solid_lamps gpu.sort_spread gpu.sort_trial gpu.spheres gpu.stages gpu.suite gpu.update
-        mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.size unit.bounces
-        unit.depth_maps unit.fragments unit.image unit.output unit.parts unit.sort unit.state unit.stopping
+        hostile_slow_helper mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.size unit.bounces
+        unit.depth_maps unit.fragments unit.image unit.output unit.parts unit.scene_place unit.sort unit.state unit.stopping
         unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"
     "5 all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
         gpu.backdrop_shapes gpu.occlusion gpu.particles gpu.rasters hostile_smoke install mutation.shapes
         mutation.turned python.module queue.smoke unit.clips unit.field unit.sun_cover"
     "10 all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.render cli.stop docs.scenes
         fuzz.mesh golden.software gpu.billboards gpu.crowds gpu.instances gpu.lens gpu.long_loops gpu.oit
-        gpu.shadows gpu.shutter gpu.sort gpu.states mutation.effects package.lintian unit.host unit.motion
+        gpu.shadows gpu.shutter gpu.sort gpu.states hostile_swap mutation.effects package.lintian unit.host unit.motion
         unit.slots versions.0.1"
     "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort
         all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers golden.suite gpu.backdrops
         report.page tree.flicker"
     "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.simulate
         tree.tidy/4"
-    "80 farm.slurm package.ci package.container"
+    "80 all.unit.scene_place farm.slurm package.ci package.container"
     "120 package.install sanitize.build"
-    "300 package.release"
+    "300 all.hostile_swap hostile_slow_helper_full package.release"
 )
 
 # kiln_test_time(name prefix): looks up the test `name` in the table. Sets three variables in the caller:

@@ -7,6 +7,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -28,10 +29,19 @@ static const struct {
 struct kiln_budget {
     struct kiln_limits limits;
     double started_s, started_cpu_s;
+    uint64_t started_peak; /* system_peak at the start */
     /* Sums of the counted amounts. The entry of `memory` is the peak; those of `time` and `cpu` are
      * not used. */
     _Atomic uint64_t taken[KILN_LIMIT_COUNT];
 };
+
+/* Returns the most bytes of this process that were ever in memory, as the system counts them. The
+ * count begins with what the process that started this one had in memory. */
+static uint64_t system_peak(void)
+{
+    struct rusage used = {0};
+    return getrusage(RUSAGE_SELF, &used) == 0 ? (uint64_t)used.ru_maxrss * 1024 : 0;
+}
 
 struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits)
 {
@@ -45,6 +55,7 @@ struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits)
         }
         budget->started_s = kiln_clock_seconds();
         budget->started_cpu_s = kiln_clock_cpu_seconds();
+        budget->started_peak = system_peak();
     }
     return budget;
 }
@@ -130,9 +141,10 @@ void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit)
         atomic_store(&budget->taken[limit], 0);
 }
 
-/* Returns the bytes of this process that are in memory. Where the system does not tell them, it
- * returns 0, so the limit of memory has no effect there. */
-static uint64_t resident_bytes(void)
+/* Returns the bytes of this process that are in memory. Where /proc is not mounted, or cannot be
+ * read, the peak stands in for them, once it has grown since the budget began: before, it may be
+ * that of another process. */
+static uint64_t resident_bytes(const struct kiln_budget *budget)
 {
     char text[64] = "";
     FILE *file = fopen("/proc/self/statm", "re");
@@ -141,7 +153,10 @@ static uint64_t resident_bytes(void)
         fclose(file);
     /* The first number is the size of the process, the second is its resident part, in pages. */
     const char *second = found ? strchr(text, ' ') : NULL;
-    return second ? strtoull(second, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
+    if (second)
+        return strtoull(second, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE);
+    const uint64_t peak = system_peak();
+    return peak > budget->started_peak ? peak : 0;
 }
 
 static uint64_t milliseconds(double seconds)
@@ -153,7 +168,7 @@ static uint64_t milliseconds(double seconds)
  * check fails, too. */
 static uint64_t peak_bytes(struct kiln_budget *budget)
 {
-    const uint64_t now = resident_bytes();
+    const uint64_t now = resident_bytes(budget);
     uint64_t peak = atomic_load(&budget->taken[KILN_LIMIT_memory]);
     while (now > peak &&
            !atomic_compare_exchange_weak(&budget->taken[KILN_LIMIT_memory], &peak, now))

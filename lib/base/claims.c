@@ -257,8 +257,9 @@ static bool add(struct kiln_claims *claims, struct claim *claim, const char *pat
     return true;
 }
 
+/* known: what fstat says of the file, which is open; NULL: the file is looked up by its path. */
 static bool declare(struct kiln_claims *claims, const char *path, const char *what, bool written,
-                    struct kiln_error *error)
+                    const struct stat *known, struct kiln_error *error)
 {
     char real[KILN_PATH_SIZE];
     const enum resolution resolution = resolve(claims, path, real);
@@ -274,14 +275,15 @@ static bool declare(struct kiln_claims *claims, const char *path, const char *wh
     struct claim *claim = kiln_arena_alloc(claims->arena, 1, sizeof *claim);
     if (!claim)
         return out_of_memory(path, error);
-    struct stat status;
+    struct stat found;
+    const struct stat *status = known ? known : &found;
     claim->path = kiln_arena_text(claims->arena, real, strlen(real));
     claim->what = kiln_arena_text(claims->arena, what, strlen(what));
     claim->written = written;
-    claim->exists = stat(path, &status) == 0 && S_ISREG(status.st_mode);
+    claim->exists = (known || stat(path, &found) == 0) && S_ISREG(status->st_mode);
     if (claim->exists) {
-        claim->device = status.st_dev;
-        claim->inode = status.st_ino;
+        claim->device = status->st_dev;
+        claim->inode = status->st_ino;
     }
     if (!claim->path || !claim->what)
         return out_of_memory(path, error);
@@ -291,13 +293,19 @@ static bool declare(struct kiln_claims *claims, const char *path, const char *wh
 bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *what,
                       struct kiln_error *error)
 {
-    return declare(claims, path, what, false, error);
+    return declare(claims, path, what, false, NULL, error);
+}
+
+bool kiln_claims_read_open(struct kiln_claims *claims, const char *path, const char *what,
+                           const struct stat *status, struct kiln_error *error)
+{
+    return declare(claims, path, what, false, status, error);
 }
 
 bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,
                        struct kiln_error *error)
 {
-    return declare(claims, path, what, true, error);
+    return declare(claims, path, what, true, NULL, error);
 }
 
 void kiln_claims_visit_read(const struct kiln_claims *claims,

@@ -5,10 +5,14 @@
  * when a process starts. */
 #include "base/confine.h"
 
+#include <endian.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/filter.h>
 #include <linux/landlock.h>
+#include <linux/seccomp.h>
 #include <seccomp.h>
+#include <stddef.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -204,4 +208,57 @@ bool kiln_seccomp_confine(enum kiln_call_list which, const struct kiln_system_ca
     library.seccomp_release(filter);
     return status == 0 || kiln_error_set_errno(error, KILN_DEVICE_FAILED, -status,
                                                "cannot install a seccomp filter");
+}
+
+/* ---- commands of system calls ---------------------------------------------------------------- */
+
+/* A filter of instructions for the kernel. libseccomp cannot express "every command but these",
+ * since one rule of it compares an argument only once. */
+struct program {
+    struct sock_filter steps[256];
+    size_t count;
+};
+
+/* Adds an instruction; where it compares, `yes` and `no` are the instructions to skip. */
+static void add_step(struct program *program, unsigned code, size_t value, size_t yes, size_t no)
+{
+    program->steps[program->count++] =
+        (struct sock_filter){(uint16_t)code, (uint8_t)yes, (uint8_t)no, (uint32_t)value};
+}
+
+/* Adds the instructions that refuse a call with another command than those of its list. */
+static void add_commands(struct program *program, const struct kiln_commands *call)
+{
+    const size_t low = __BYTE_ORDER == __LITTLE_ENDIAN ? 0 : sizeof(uint32_t);
+    const size_t place = offsetof(struct seccomp_data, args) + call->argument * sizeof(uint64_t);
+    add_step(program, BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr), 0, 0);
+    add_step(program, BPF_JMP | BPF_JEQ | BPF_K, (size_t)call->number, 0, call->count + 3);
+    add_step(program, BPF_LD | BPF_W | BPF_ABS, place + low, 0, 0);
+    for (size_t i = 0; i < call->count; i++)
+        add_step(program, BPF_JMP | BPF_JEQ | BPF_K, call->allowed[i], call->count - i, 0);
+    add_step(program, BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM, 0, 0);
+    add_step(program, BPF_RET | BPF_K, SECCOMP_RET_ALLOW, 0, 0);
+}
+
+bool kiln_seccomp_limit_commands(const struct kiln_commands *calls, size_t count,
+                                 struct kiln_error *error)
+{
+    struct program program = {.count = 0};
+    if (!kernel_has_seccomp())
+        return true;
+    for (size_t i = 0; i < count; i++) {
+        const size_t needed = calls[i].count + 5;
+        if (needed + 1 > sizeof program.steps / sizeof *program.steps - program.count)
+            return kiln_error_set(error, KILN_DEVICE_FAILED, "too many commands of system calls");
+        add_commands(&program, &calls[i]);
+    }
+    add_step(&program, BPF_RET | BPF_K, SECCOMP_RET_ALLOW, 0, 0);
+    const struct sock_fprog filter = {(unsigned short)program.count, program.steps};
+    long status = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    if (status == 0)
+        status = syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &filter);
+    if (status > 0) /* the number of a thread that has filters of its own */
+        errno = ESRCH;
+    return status == 0 || kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
+                                               "cannot limit the commands of system calls");
 }

@@ -86,4 +86,20 @@ enum kiln_call_list { KILN_ONLY_THESE_CALLS, KILN_ALL_BUT_THESE_CALLS };
 bool kiln_seccomp_confine(enum kiln_call_list which, const struct kiln_system_call *calls,
                           size_t count, struct kiln_error *error);
 
+/* Describes a system call whose commands are limited, such as ioctl: `argument` is the number of
+ * the argument that holds the command, and `allowed` lists the only commands that remain. */
+struct kiln_commands {
+    long number; /* such as SYS_ioctl of <sys/syscall.h> */
+    unsigned argument;
+    const uint32_t *allowed;
+    size_t count; /* at most 100 */
+};
+
+/* Restricts the commands of system calls, of all threads of this process and of all that they
+ * start. Other commands fail with EPERM. Only the low 32 bits of a command are compared, since the
+ * kernel ignores the others. Does nothing and returns true where the kernel has no seccomp; returns
+ * false with KILN_DEVICE_FAILED when the kernel refuses. */
+bool kiln_seccomp_limit_commands(const struct kiln_commands *calls, size_t count,
+                                 struct kiln_error *error);
+
 #endif

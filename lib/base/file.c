@@ -24,23 +24,21 @@ const char *kiln_path_below(const char *path, const char *folder)
     return strncmp(path, folder, length) == 0 && path[length] == '/' ? path + length + 1 : NULL;
 }
 
-static bool check_file(int file, const char *path, const char *what, size_t limit, size_t *size,
-                       struct kiln_error *error)
+static bool check_file(int file, const char *path, const char *what, size_t limit,
+                       struct stat *status, struct kiln_error *error)
 {
-    struct stat status;
-    if (fstat(file, &status) != 0)
+    if (fstat(file, status) != 0)
         return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
-    if (S_ISDIR(status.st_mode))
+    if (S_ISDIR(status->st_mode))
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is a folder, not %s", path,
                               what);
-    if (!S_ISREG(status.st_mode))
+    if (!S_ISREG(status->st_mode))
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is not a regular file",
                               path);
-    if ((uint64_t)status.st_size > limit)
+    if ((uint64_t)status->st_size > limit)
         return kiln_error_set(error, KILN_INVALID_INPUT,
                               "%s: the file has %lld bytes; %s has at most %zu", path,
-                              (long long)status.st_size, what, limit);
-    *size = (size_t)status.st_size;
+                              (long long)status->st_size, what, limit);
     return true;
 }
 
@@ -61,26 +59,33 @@ static bool read_bytes(int file, const char *path, char *text, size_t expected, 
     return true;
 }
 
+char *kiln_text_file_take(int file, const char *path, const char *what, size_t limit, size_t *size,
+                          struct stat *status, struct kiln_error *error)
+{
+    if (!check_file(file, path, what, limit, status, error))
+        return NULL;
+    const size_t expected = (size_t)status->st_size;
+    char *text = malloc(expected + 1);
+    if (!text) {
+        kiln_error_no_memory(error, "%s", path);
+    } else if (!read_bytes(file, path, text, expected, size, error)) {
+        free(text);
+        text = NULL;
+    }
+    return text;
+}
+
 char *kiln_text_file_read(const char *path, const char *what, size_t limit, size_t *size,
                           struct kiln_error *error)
 {
+    struct stat status;
     /* Without O_NONBLOCK, opening a pipe would wait for its writer. */
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) {
         kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
         return NULL;
     }
-    size_t expected = 0;
-    char *text = NULL;
-    if (check_file(file, path, what, limit, &expected, error)) {
-        text = malloc(expected + 1);
-        if (!text)
-            kiln_error_no_memory(error, "%s", path);
-        else if (!read_bytes(file, path, text, expected, size, error)) {
-            free(text);
-            text = NULL;
-        }
-    }
+    char *text = kiln_text_file_take(file, path, what, limit, size, &status, error);
     close(file);
     return text;
 }

@@ -1,13 +1,16 @@
 /* This file opens regular files and reads them into memory as a whole. A path may come from a user
  * and lead to anything (a folder, a FIFO, a device), so each file is checked after it is opened.
- * KILN_FILE_FLAGS keep opening from waiting. */
+ * KILN_FILE_FLAGS keep opening from waiting. Below a folder, files are opened by openat2, which the
+ * kernel resolves there even if links are swapped meanwhile. */
 #include "base/file_in.h"
 
 #include <errno.h>
 #include <inttypes.h>
+#include <linux/openat2.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -44,6 +47,46 @@ bool kiln_file_check(int file, const char *path, const char *what, const char *a
     return !kiln_file_is_lfs_pointer(file) ||
            kiln_error_set(error, KILN_INVALID_INPUT,
                           "%s: the %s is a Git LFS pointer: run git lfs pull", path, what);
+}
+
+/* Opens a path component by component and follows no link. It replaces openat2 on an older kernel,
+ * or in a container that forbids the call. */
+static int open_steps(int folder, const char *relative)
+{
+    char path[KILN_PATH_SIZE];
+    int at = dup(folder);
+    if (snprintf(path, sizeof path, "%s", relative) >= (int)sizeof path)
+        path[0] = '\0';
+    char *rest = path;
+    for (const char *step; at >= 0 && (step = strsep(&rest, "/"));) {
+        const int flags = rest ? O_PATH | O_DIRECTORY | O_CLOEXEC : KILN_FILE_FLAGS;
+        const bool leads_up = strcmp(step, "..") == 0;
+        const int next = leads_up ? -1 : *step ? openat(at, step, flags | O_NOFOLLOW) : dup(at);
+        const int reason = leads_up ? EXDEV : errno;
+        close(at);
+        errno = reason;
+        at = next;
+    }
+    return at;
+}
+
+int kiln_file_open_below(const char *folder, const char *relative)
+{
+    const int opened = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0)
+        return -1;
+    const struct open_how how = {.flags = KILN_FILE_FLAGS,
+                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
+    int file, tries = 0;
+    do { /* EAGAIN: something was renamed meanwhile, and the kernel cannot be sure */
+        file = (int)syscall(SYS_openat2, opened, relative, &how, sizeof how);
+    } while (file < 0 && (errno == EAGAIN || errno == EINTR) && tries++ < 100);
+    if (file < 0 && (errno == ENOSYS || errno == EPERM))
+        file = open_steps(opened, relative);
+    const int reason = errno;
+    close(opened);
+    errno = reason;
+    return file;
 }
 
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,

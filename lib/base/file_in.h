@@ -22,6 +22,13 @@ enum { KILN_FILE_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,
                    struct kiln_error *error);
 
+/* Opens a path below a folder for reading, and nothing outside of the folder, even if names and
+ * links in it are changed meanwhile. `relative` is the path from the folder. Links within the
+ * folder are followed, except on a kernel or in a container without openat2, where no link is.
+ * Returns the descriptor, which may be of anything (kiln_file_check), or -1 with errno: EXDEV or
+ * ELOOP where the path leads outside. */
+int kiln_file_open_below(const char *folder, const char *relative);
+
 /* Returns the bytes of a regular file of at most `limit` bytes, which the caller frees. There is
  * room for one byte more, such as a zero. A file that grows meanwhile is read up to the size that
  * it had when it was opened. NULL with the codes of kiln_file_open, with KILN_INVALID_INPUT when

@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/auxv.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "asset/loader/helper.h"
@@ -174,6 +176,10 @@ static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
     {                                                                                              \
         .number = SCMP_SYS(name), .differs = true                                                  \
     }
+#define CALL_UNLESS_NULL(name, which)                                                              \
+    {                                                                                              \
+        .number = SCMP_SYS(name), .argument = which, .differs = true                               \
+    }
 
 /* System calls that no job makes and that have been used to leave sandboxes or to attack the
  * kernel. */
@@ -218,6 +224,7 @@ static const struct kiln_system_call refused[] = {
     CALL(syslog),
     CALL(acct),
     CALL(quotactl),
+    CALL(quotactl_fd),
     CALL(bpf),
     CALL(perf_event_open),
     CALL(userfaultfd),
@@ -269,13 +276,34 @@ static const struct kiln_system_call refused[] = {
     CALL(inotify_add_watch),
     CALL(fanotify_init),
     CALL(fanotify_mark),
+    /* Objects of System V belong to a user. A process reaches them by a number, which it can guess,
+     * so not only the calls that open them are refused. */
     CALL(shmget),
     CALL(shmat),
+    CALL(shmctl),
     CALL(msgget),
+    CALL(msgctl),
+    CALL(msgsnd),
+    CALL(msgrcv),
     CALL(semget),
+    CALL(semctl),
+    CALL(semop),
+    CALL(semtimedop),
     CALL(mq_open),
+    CALL(mq_unlink),
     CALL(memfd_create),
     CALL(memfd_secret),
+    /* What others share with the process by a descriptor that it inherits: connections and pipes.
+     * sendmsg stays, by which kiln-decode gets a file. */
+    CALL_UNLESS_NULL(sendto, 4), /* an address */
+    CALL(sendmmsg),
+    CALL(recvmmsg),
+    CALL(shutdown),
+    CALL(setsockopt),
+    CALL(splice),
+    CALL(tee),
+    CALL(vmsplice),
+    CALL(sendfile),
     /* calls that change other processes */
     CALL_OF_OTHERS(prlimit64),
     CALL(setpriority),
@@ -311,6 +339,31 @@ static const struct kiln_system_call before_landlock_3[] = {
     {.number = SCMP_SYS(openat), .argument = 2, .mask = O_TRUNC | O_ACCMODE, .value = O_TRUNC},
     {.number = SCMP_SYS(openat2), .refusal = ENOSYS},
 };
+
+/* The commands of ioctl that a job needs: those by which isatty, a program that asks for the size
+ * of its terminal, and an interpreter work. Others act on what a descriptor leads to and others
+ * share: they type into a terminal (TIOCSTI, TIOCLINUX), change it, or make a shared pipe fail
+ * (FIONBIO). */
+static const uint32_t allowed_of_ioctl[] = {
+    TCGETS,     0x802c542a, /* TCGETS2, whose header does not go with <sys/ioctl.h> */
+    TIOCGWINSZ, FIONREAD,   FIOCLEX, FIONCLEX,
+};
+
+/* The commands of fcntl that change nothing but the process's own descriptors and locks. Others
+ * change the open file, which others may share (F_SETFL), or send signals to others (F_SETOWN). */
+static const uint32_t allowed_of_fcntl[] = {
+    F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD,     F_SETFD,     F_GETFL,      F_GETLK,
+    F_SETLK, F_SETLKW,        F_OFD_GETLK, F_OFD_SETLK, F_OFD_SETLKW, F_GETPIPE_SZ,
+};
+
+static bool limit_commands(struct kiln_error *error)
+{
+    static const struct kiln_commands calls[] = {
+        {SYS_ioctl, 1, allowed_of_ioctl, sizeof allowed_of_ioctl / sizeof *allowed_of_ioctl},
+        {SYS_fcntl, 1, allowed_of_fcntl, sizeof allowed_of_fcntl / sizeof *allowed_of_fcntl},
+    };
+    return kiln_seccomp_limit_commands(calls, sizeof calls / sizeof *calls, error);
+}
 
 static bool refuse_calls(struct kiln_error *error)
 {
@@ -372,7 +425,8 @@ static bool confine(const struct kiln_sandbox_params *params, char **folders, ch
     }
     return add_writable(&places, params, folders) && add_machine(&places, library_path) &&
            add_cache(&places, cache) && add_helper(&places, &helper) && kiln_seccomp_open(error) &&
-           kiln_landlock_confine(places.items, places.count, error) && refuse_calls(error);
+           kiln_landlock_confine(places.items, places.count, error) && limit_commands(error) &&
+           refuse_calls(error);
 }
 
 bool kiln_sandbox_enter(const struct kiln_sandbox_params *given, struct kiln_error *error)

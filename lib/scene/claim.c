@@ -15,7 +15,7 @@ bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char 
     struct kiln_scene_file *file = kiln_arena_alloc(scene->arena, 1, sizeof *file);
     if (!file)
         return false;
-    *file = (struct kiln_scene_file){path, what, scene->files};
+    *file = (struct kiln_scene_file){.path = path, .what = what, .next = scene->files};
     scene->files = file;
     return true;
 }
@@ -24,7 +24,9 @@ bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims
                       struct kiln_error *error)
 {
     for (const struct kiln_scene_file *file = scene->files; file; file = file->next) {
-        if (!kiln_claims_read(claims, file->path, file->what, error))
+        if (!(file->status
+                  ? kiln_claims_read_open(claims, file->path, file->what, file->status, error)
+                  : kiln_claims_read(claims, file->path, file->what, error)))
             return false;
     }
     return true;

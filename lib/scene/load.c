@@ -3,6 +3,8 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "asset/loader/loader.h"
 #include "base/budget.h"
@@ -13,6 +15,7 @@
 #include "option/override.h"
 #include "scene/asset_path.h"
 #include "scene/mesh_notes.h"
+#include "scene/place.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
 
@@ -126,8 +129,28 @@ static void blame_limit(const struct kiln_scene *scene, struct kiln_error *error
         kiln_error_set(error, KILN_OVER_LIMIT, "loading %s: %s", scene->name, limit.message);
 }
 
-/* file: where relative paths start, or NULL. */
-static struct kiln_scene *create(const char *text, size_t size, const char *name, const char *file,
+/* The file that the text of a scene was read from. */
+struct origin_file {
+    const char *path; /* relative paths of the scene start in its folder */
+    const struct stat *status;
+};
+
+/* Lists the scene's own file, which another file may have replaced under its name by now. */
+static bool add_own_file(struct kiln_scene *scene, const struct origin_file *file)
+{
+    if (!kiln_scene_add_file(scene, scene->name, "the scene"))
+        return false;
+    struct stat *status = kiln_arena_alloc(scene->arena, 1, sizeof *status);
+    if (!status)
+        return false;
+    *status = *file->status;
+    scene->files->status = status;
+    return true;
+}
+
+/* file: NULL for a scene that is no file. */
+static struct kiln_scene *create(const char *text, size_t size, const char *name,
+                                 const struct origin_file *file,
                                  const struct kiln_scene_params *params, struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
@@ -148,10 +171,10 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         scene->arena = arena;
         scene->name = name_copy;
         scene->budget = params->budget;
-        scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
+        scene->asset_root =
+            kiln_asset_root(arena, params->asset_root, file ? file->path : NULL, error);
         ok = scene->asset_root &&
-             (!file || kiln_scene_add_file(scene, name_copy, "the scene") ||
-              kiln_reader_out_of_memory(&reader)) &&
+             (!file || add_own_file(scene, file) || kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params);
         kiln_loader_stop_counting(scene->loader, params->budget);
     }
@@ -169,40 +192,24 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     return scene;
 }
 
-/* Checks that a scene file in the asset root is no link out of it, since such a link would come
- * from the same source as the folder. */
-static bool check_place(const char *path, const char *asset_root, struct kiln_error *error)
-{
-    if (!asset_root)
-        return true;
-    const char *slash = strrchr(path, '/');
-    char *named = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
-    char *folder = named ? realpath(named, NULL) : NULL, *real = realpath(path, NULL);
-    char *root = realpath(asset_root, NULL);
-    const bool inside =
-        folder && root && (strcmp(folder, root) == 0 || kiln_path_below(folder, root) != NULL);
-    const bool good = !inside || !real || kiln_path_below(real, root) ||
-                      kiln_error_set(error, KILN_INVALID_INPUT,
-                                     "%s: the scene leads outside the asset root", path);
-    free(named);
-    free(folder);
-    free(real);
-    free(root);
-    return good;
-}
-
 struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *given,
                                    struct kiln_error *error)
 {
     size_t size = 0;
+    struct stat status;
     struct kiln_scene_params params = kiln_scene_defaults();
-    char *text = kiln_sized_take(&params, given, "kiln_scene_params", error) &&
-                         check_place(path, params.asset_root, error)
-                     ? kiln_text_file_read(path, "a scene file", KILN_MAX_SCENE_SIZE, &size, error)
-                     : NULL;
+    const int file = kiln_sized_take(&params, given, "kiln_scene_params", error)
+                         ? kiln_scene_open(path, params.asset_root, error)
+                         : -1;
+    if (file < 0)
+        return NULL;
+    char *text =
+        kiln_text_file_take(file, path, "a scene file", KILN_MAX_SCENE_SIZE, &size, &status, error);
+    close(file);
     if (!text)
         return NULL;
-    struct kiln_scene *scene = create(text, size, path, path, &params, error);
+    const struct origin_file origin = {path, &status};
+    struct kiln_scene *scene = create(text, size, path, &origin, &params, error);
     free(text);
     return scene;
 }

@@ -430,6 +430,8 @@ static inline bool kiln_backdrop_floor_collides(const struct kiln_backdrop *back
 struct kiln_scene_file {
     const char *path;
     const char *what; /* kind of file for messages: "the scene" */
+    /* what fstat says of the file that was read; NULL: the path has to be asked */
+    const struct stat *status;
     struct kiln_scene_file *next;
 };
 

@@ -5,12 +5,15 @@
  * kiln must notice. */
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/futex.h>
 #include <math.h>
 #include <netinet/in.h>
+#include <setjmp.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
@@ -19,6 +22,7 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "decode.h"
@@ -119,6 +123,73 @@ static bool take_more(void)
            syscall(SYS_io_uring_setup, 1, NULL) != -1 || syscall(SYS_bpf, 0, NULL, 0) != -1;
 }
 
+/* Sends by calls that carry more than bytes: descriptors, addresses, urgent data. */
+static bool send_more(void)
+{
+    union {
+        struct cmsghdr header;
+        char room[CMSG_SPACE(sizeof(int))];
+    } control = {.header = {.cmsg_len = CMSG_LEN(sizeof(int)),
+                            .cmsg_level = SOL_SOCKET,
+                            .cmsg_type = SCM_RIGHTS}};
+    struct iovec part = {(char *)"", 1};
+    struct mmsghdr message = {.msg_hdr = {.msg_iov = &part,
+                                          .msg_iovlen = 1,
+                                          .msg_control = control.room,
+                                          .msg_controllen = sizeof control.room}};
+    memcpy(CMSG_DATA(&control.header), &(int){KILN_DECODE_SOCKET}, sizeof(int));
+    return sendmsg(KILN_DECODE_SOCKET, &message.msg_hdr, 0) >= 0 ||
+           sendmmsg(KILN_DECODE_SOCKET, &message, 1, 0) >= 0 ||
+           send(KILN_DECODE_SOCKET, "x", 1, MSG_OOB) >= 0 ||
+           sendto(KILN_DECODE_SOCKET, "", 0, 0, NULL, 0) >= 0 ||
+           recv(KILN_DECODE_SOCKET, &(char){0}, 1, MSG_DONTWAIT | MSG_PEEK) >= 0 ||
+           errno != ENOSYS || shutdown(KILN_DECODE_SOCKET, SHUT_RD) == 0 ||
+           setsockopt(KILN_DECODE_SOCKET, SOL_SOCKET, SO_SNDBUF, &(int){1 << 20}, sizeof(int)) == 0;
+}
+
+/* Acts on what a descriptor leads to. */
+static bool command_descriptors(void)
+{
+    return ioctl(KILN_DECODE_SOCKET, FIONBIO, &(int){1}) == 0 ||
+           ioctl(0, FIONREAD, &(int){0}) == 0 || errno != ENOSYS ||
+           fcntl(KILN_DECODE_SOCKET, F_SETFL, O_NONBLOCK) == 0 ||
+           fcntl(KILN_DECODE_SOCKET, F_SETOWN, parent) == 0 || dup(KILN_DECODE_SOCKET) >= 0;
+}
+
+static sigjmp_buf before_fault;
+
+static void on_fault(int signal)
+{
+    (void)signal;
+    siglongjmp(before_fault, 1);
+}
+
+/* Prepares the process for a fault while it still may. As under `ulimit -s unlimited`, the stack
+ * may grow without a limit. */
+static void expect_faults(void)
+{
+    static char stack[1 << 16];
+    const struct rlimit much = {RLIM_INFINITY, RLIM_INFINITY};
+    const struct sigaction action = {.sa_handler = on_fault, .sa_flags = SA_ONSTACK | SA_NODEFER};
+    setrlimit(RLIMIT_STACK, &much);
+    sigaltstack(&(stack_t){.ss_sp = stack, .ss_size = sizeof stack}, NULL);
+    sigaction(SIGSEGV, &action, NULL);
+}
+
+/* Takes memory that RLIMIT_DATA does not count: the stack, and tables of pages that are only read.
+ */
+static bool take_uncounted(void)
+{
+    char here;
+    volatile uintptr_t deep = (uintptr_t)&here - ((size_t)64 << 20);
+    if (sigsetjmp(before_fault, 0) == 0) {
+        *(volatile char *)deep = 1;
+        return true;
+    }
+    return mmap(NULL, (size_t)1 << 40, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1,
+                0) != MAP_FAILED;
+}
+
 static const struct attempt {
     const char *name;
     bool (*try)(void);
@@ -134,6 +205,9 @@ static const struct attempt {
     {"trace kiln", trace_parent},
     {"make code", make_code},
     {"take more", take_more},
+    {"send more than bytes", send_more},
+    {"command a descriptor", command_descriptors},
+    {"take uncounted memory", take_uncounted},
 };
 
 static void try_all(char *text, size_t size)
@@ -282,6 +356,35 @@ static void do_wants_secret(void)
     send_failure(KILN_INVALID_INPUT, heard && file.is_open ? "it was opened" : "it was not");
 }
 
+/* Waits without taking processor time. */
+static void wait_ms(long ms)
+{
+    static uint32_t word;
+    const struct timespec time = {ms / 1000, 1000000 * (ms % 1000)};
+    syscall(SYS_futex, &word, FUTEX_WAIT, 0, &time, NULL, 0);
+}
+
+/* Sends a sound picture so slowly that each wait of kiln's for itself is short. */
+static void do_drip(void)
+{
+    static const char pixels[256 * 256 * 4];
+    send_size(256, 256, 4, 0);
+    for (size_t i = 0; i < sizeof pixels; i++) {
+        send_bytes(pixels + i, 1);
+        wait_ms(20);
+    }
+}
+
+/* Asks for files that are there, for ever, with a pause before each. */
+static void do_wants_slowly(void)
+{
+    struct kiln_decode_file file;
+    do {
+        wait_ms(100);
+        send_wish("a.obj");
+    } while (read(KILN_DECODE_SOCKET, &file, sizeof file) > 0);
+}
+
 static void do_busy(void)
 {
     for (volatile unsigned i = 0;; i++)
@@ -343,6 +446,8 @@ static const struct way {
     {"wants", do_wants},
     {"wants-deaf", do_wants_deaf},
     {"wants-secret", do_wants_secret},
+    {"drip", do_drip},
+    {"wants-slowly", do_wants_slowly},
     {"busy", do_busy},
     {"short", do_short},
     {"beyond", do_beyond},
@@ -388,6 +493,7 @@ int main(int argc, char **argv)
     parent = getppid();
     strcpy(ready.text, how && strcmp(how, "version") == 0 ? "99" : KILN_VERSION);
     (void)argv;
+    expect_faults();
     if (argc != 3 || !how || !decode_confine(KILN_DECODE_PNG, UINT64_MAX, &error))
         return 1;
     send_answer(ready);

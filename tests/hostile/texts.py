@@ -54,10 +54,10 @@ def decoder(how, use="atlas", codes=REFUSED, command=check, says="", smoke=False
 
 
 def decoders():
-    yield decoder("attempts", says="worked: and 11 were tried", smoke=True)
+    yield decoder("attempts", says="worked: and 14 were tried", smoke=True)
     for use in ("mesh", "floor"):
-        yield decoder("attempts", use, says="worked: and 11 were tried")
-    yield decoder("attempts", command=lambda: check("--sandbox"), says="worked: and 11 were tried")
+        yield decoder("attempts", use, says="worked: and 14 were tried")
+    yield decoder("attempts", command=lambda: check("--sandbox"), says="worked: and 14 were tried")
     for how in ("huge", "overflow", "largest", "nothing", "type", "channels", "nan", "infinite", "short", "crash", "what", "other",
                 "endless-text", "escapes", "no-error", "wrong-code", "over"):
         yield decoder(how, smoke=how in ("huge", "short"))

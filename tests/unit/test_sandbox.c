@@ -156,6 +156,29 @@ static bool make_devices(void)
            chroot("out") == 0;
 }
 
+/* Takes 256 MiB in a process that cannot read its files below /proc: the sandbox lets only the
+ * process that entered it read its own. Returns whether the limit of memory was met. */
+static bool meet_the_limit_of_memory(void)
+{
+    enum { TAKEN = 256 << 20 };
+    const pid_t child = fork();
+    int status = 0;
+    if (child == 0) {
+        struct kiln_limits limits = kiln_limits_empty();
+        struct kiln_error error = {0};
+        limits.most[KILN_LIMIT_memory] = (uint64_t)128 << 20;
+        struct kiln_budget *budget = kiln_budget_create(&limits);
+        if (!budget || opens("/proc/self/statm", O_RDONLY) || !kiln_budget_is_kept(budget, &error))
+            _exit(2);
+        char *bytes = malloc(TAKEN);
+        for (size_t i = 0; bytes && i < TAKEN; i += 4096)
+            ((volatile char *)bytes)[i] = 1;
+        _exit(kiln_budget_is_kept(budget, &error) ? 0 : error.code == KILN_OVER_LIMIT ? 1 : 3);
+    }
+    return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+           WEXITSTATUS(status) == 1;
+}
+
 /* ---- asking ---------------------------------------------------------------------------------- */
 
 static bool enter(void)
@@ -229,6 +252,14 @@ static void a_job_can_work(void **state)
     assert_true(succeeds(decode_a_picture));
 }
 
+static void memory_is_limited_without_proc(void **state)
+{
+    (void)state;
+    if (!is_possible())
+        skip();
+    assert_true(succeeds(meet_the_limit_of_memory));
+}
+
 static void nothing_else_can_be_done(void **state)
 {
     (void)state;
@@ -258,6 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_job_can_work, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(memory_is_limited_without_proc, set_up, tear_down),
         cmocka_unit_test_setup_teardown(nothing_else_can_be_done, set_up, tear_down),
         cmocka_unit_test_setup_teardown(all_of_it_works_outside, set_up, tear_down),
     };

@@ -108,7 +108,7 @@ static bool receive(struct kiln_layers_in *layers, struct kiln_asset_image **ima
     const bool first = layers->count == 0 && kiln_helper_kind(received->helper) == KILN_DECODE_EXR;
     const unsigned other = first ? 1u << KILN_DECODE_NEEDS_OTHER : 0;
     struct kiln_error reason = {0};
-    kiln_helper_begin_frame(received->helper);
+    kiln_helper_begin(received->helper);
     *image = kiln_received_image(received, 1u << KILN_DECODE_PIXELS | 1u << KILN_DECODE_END | other,
                                  &reason);
     layers->has_ended = !*image && reason.code == KILN_OK;

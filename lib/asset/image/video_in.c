@@ -99,7 +99,7 @@ bool kiln_video_in_read(struct kiln_video_in *video, struct kiln_asset_image **i
     *image = NULL;
     if (video->has_ended)
         return true;
-    kiln_helper_begin_frame(video->received.helper);
+    kiln_helper_begin(video->received.helper);
     *image = kiln_received_image(&video->received, 1u << KILN_DECODE_PIXELS | 1u << KILN_DECODE_END,
                                  &reason);
     if (reason.code == KILN_OK && *image && ++video->frames > KILN_MAX_VIDEO_FRAMES) {

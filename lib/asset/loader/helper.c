@@ -24,9 +24,7 @@
 #include "base/error.h"
 #include "kiln_program.h"
 
-/* Limits of waiting. A process that sleeps takes no processor time, so waiting is limited in real
- * time, too. */
-enum { WAIT_MS = 20, WALL_SECONDS = 10 * KILN_DECODE_SECONDS };
+enum { WAIT_MS = 20 };
 
 struct kiln_helper {
     enum kiln_decode_kind kind;
@@ -36,7 +34,10 @@ struct kiln_helper {
      * none */
     int handle;
     int socket;
-    double cpu_s; /* processor time that the process had taken when the present request began */
+    /* When the present request began: the processor time that the process had taken, and the real
+     * time. A process that sleeps takes no processor time, so both are limited. */
+    double cpu_s, began_s;
+    double most_s; /* the limit of real time */
     bool is_broken;
 };
 
@@ -248,8 +249,12 @@ struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_
         free(helper);
         return NULL;
     }
-    *helper = (struct kiln_helper){
-        .kind = kind, .socket = pair[0], .handle = -1, .is_limited = most_memory != UINT64_MAX};
+    *helper = (struct kiln_helper){.kind = kind,
+                                   .socket = pair[0],
+                                   .handle = -1,
+                                   .is_limited = most_memory != UINT64_MAX,
+                                   .began_s = kiln_clock_seconds(),
+                                   .most_s = KILN_DECODE_REAL_SECONDS};
     const int status = spawn(&helper->process, path, kind, most_memory, pair[1]);
     close(pair[1]);
     if (status) {
@@ -320,9 +325,15 @@ bool kiln_helper_is_waiting(const struct kiln_helper *helper)
     return !helper->is_broken && poll(&socket, 1, 0) == 0;
 }
 
-void kiln_helper_begin_frame(struct kiln_helper *helper)
+void kiln_helper_begin(struct kiln_helper *helper)
 {
     helper->cpu_s = cpu_seconds(helper);
+    helper->began_s = kiln_clock_seconds();
+}
+
+void kiln_helper_limit_time(struct kiln_helper *helper, double most_s)
+{
+    helper->most_s = most_s;
 }
 
 void kiln_helper_break(struct kiln_helper *helper)
@@ -369,12 +380,27 @@ static bool fail_gone(struct kiln_helper *helper, const struct kiln_caller *call
     return kiln_error_set(error, KILN_INVALID_INPUT, "the file is broken: the decoder fails on it");
 }
 
-static bool fail_time(struct kiln_helper *helper, int seconds, const char *of,
+static bool fail_time(struct kiln_helper *helper, double seconds, const char *of,
                       struct kiln_error *error)
 {
     helper->is_broken = true;
-    return kiln_error_set(error, KILN_INVALID_INPUT, "decoding took longer than %d s%s", seconds,
+    return kiln_error_set(error, KILN_INVALID_INPUT, "decoding took longer than %g s%s", seconds,
                           of);
+}
+
+/* Returns whether the present request may go on: the caller wants it, and it is within its limits
+ * of time. */
+static bool may_wait(struct kiln_helper *helper, const struct kiln_caller *caller,
+                     struct kiln_error *error)
+{
+    if (!kiln_may_go_on(caller, error)) {
+        helper->is_broken = true;
+        return false;
+    }
+    if (cpu_seconds(helper) - helper->cpu_s > KILN_DECODE_SECONDS)
+        return fail_time(helper, KILN_DECODE_SECONDS, " of processor time", error);
+    return kiln_clock_seconds() - helper->began_s <= helper->most_s ||
+           fail_time(helper, helper->most_s, "", error);
 }
 
 bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size, int file,
@@ -394,7 +420,6 @@ bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size
         message.msg_controllen = sizeof control.room;
     }
     ssize_t sent;
-    helper->cpu_s = cpu_seconds(helper);
     do {
         sent =
             helper->is_broken ? -1 : sendmsg(helper->socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -411,27 +436,19 @@ bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size
 bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *caller, void *bytes,
                          size_t size, struct kiln_error *error)
 {
-    const double start_s = kiln_clock_seconds();
     for (size_t done = 0; done < size;) {
         if (helper->is_broken)
             return fail_gone(helper, caller, error);
         const ssize_t got = recv(helper->socket, (char *)bytes + done, size - done, MSG_DONTWAIT);
-        if (got > 0) {
-            done += (size_t)got;
-            continue;
-        }
-        if (got == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR))
+        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR))
             return fail_gone(helper, caller, error);
-        if (!kiln_may_go_on(caller, error)) {
-            helper->is_broken = true;
+        done += got > 0 ? (size_t)got : 0;
+        /* The limits hold for one that sends slowly, too, so they are compared after each part. */
+        if (done < size && !may_wait(helper, caller, error))
             return false;
-        }
-        if (cpu_seconds(helper) - helper->cpu_s > KILN_DECODE_SECONDS)
-            return fail_time(helper, KILN_DECODE_SECONDS, " of processor time", error);
-        if (kiln_clock_seconds() - start_s > WALL_SECONDS)
-            return fail_time(helper, WALL_SECONDS, "", error);
         struct pollfd ready = {.fd = helper->socket, .events = POLLIN};
-        poll(&ready, 1, WAIT_MS);
+        if (got < 0)
+            poll(&ready, 1, WAIT_MS);
     }
     return true;
 }

@@ -21,11 +21,12 @@ void kiln_helper_end(struct kiln_helper **helper);
 
 enum kiln_decode_kind kiln_helper_kind(const struct kiln_helper *helper);
 
-/* Sends bytes, and a descriptor unless it is -1. The descriptor stays owned by the caller. */
+/* Sends bytes, and a descriptor unless it is -1. The descriptor stays owned by the caller. The
+ * limits of time do not begin anew. */
 bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size, int file,
                       struct kiln_error *error);
 
-/* Waits for `size` bytes. False when the process ended or took longer than allowed
+/* Waits for `size` bytes. False when the process ended or the request took longer than allowed
  * (KILN_INVALID_INPUT: the file is too hard to decode; KILN_DEVICE_FAILED when the process lacked
  * memory), or the caller wants no more. After that, the helper can only be ended. */
 bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *caller, void *bytes,
@@ -50,8 +51,11 @@ void kiln_helper_break(struct kiln_helper *helper);
  * that was not asked for. */
 bool kiln_helper_is_waiting(const struct kiln_helper *helper);
 
-/* Restarts the limit of the time that the decoder may take, as each new file does. */
-void kiln_helper_begin_frame(struct kiln_helper *helper);
+/* Begins the limits of time (KILN_DECODE_SECONDS, KILN_DECODE_REAL_SECONDS) anew. Call it before a
+ * request, and before the next frame or layer is awaited: they hold for all that is received until
+ * the next call. kiln_helper_limit_time replaces the limit of real time of this process. */
+void kiln_helper_begin(struct kiln_helper *helper);
+void kiln_helper_limit_time(struct kiln_helper *helper, double most_s);
 
 /* Finds kiln-decode: below the folder in environment variable KILN_LIBEXEC_DIR, if that is set;
  * else beside the program or library that contains this code (as built, as installed); else in its

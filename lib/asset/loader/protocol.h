@@ -32,8 +32,10 @@ enum kiln_decode_kind {
 enum {
     KILN_LAYER_NAME_SIZE = 512, /* bytes of the name of a layer of a picture, with the NUL */
     KILN_DECODE_SOCKET = 3,     /* kiln-decode has the socket as this descriptor */
-    /* the limit of processor time for a picture, a frame of a video or a mesh */
-    KILN_DECODE_SECONDS = 30
+    /* the limits of processor time and of real time for a picture, a frame of a video or a mesh,
+     * from the request to the last byte of the answer */
+    KILN_DECODE_SECONDS = 30,
+    KILN_DECODE_REAL_SECONDS = 60
 };
 
 enum kiln_picture_format {

@@ -600,7 +600,7 @@ $ kiln help enviroment
 With KILN_LOG=debug, the place in kiln's source stands before an error.
 
 $ KILN_LOG=debug kiln check nothing.yaml 2>&1 | sed 's/c:[0-9]*$/c:<line>/'
-1|kiln: debug: the next error is of lib/base/file.c:<line>
+1|kiln: debug: the next error is of lib/scene/place.c:<line>
 1|nothing.yaml: No such file or directory
 $ KILN_LOG=info kiln check nothing.yaml
 2|nothing.yaml: No such file or directory
