@@ -1,17 +1,14 @@
-/* Opens the files that a scene names, below the asset root and nowhere else, and hands out the
- * processes that decode them. It opens by openat2, which the kernel resolves below the root even if
- * links are swapped meanwhile. */
+/* Opens the files that a scene names, below the asset root and nowhere else, even if links are
+ * swapped meanwhile, and hands out the processes that decode them. */
 #include "asset/loader/loader.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/openat2.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "base/budget.h"
@@ -132,47 +129,6 @@ void kiln_loader_log(void *log, const char *path, const char *text)
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-/* Opens a path component by component and follows no link. It replaces openat2 on an older kernel,
- * or in a container that forbids the call. */
-static int open_steps(int folder, const char *relative)
-{
-    char path[KILN_PATH_SIZE];
-    int at = dup(folder);
-    if (snprintf(path, sizeof path, "%s", relative) >= (int)sizeof path)
-        path[0] = '\0';
-    char *rest = path;
-    for (const char *step; at >= 0 && (step = strsep(&rest, "/"));) {
-        const int flags = rest ? O_PATH | O_DIRECTORY | O_CLOEXEC : KILN_FILE_FLAGS;
-        const bool leads_up = strcmp(step, "..") == 0;
-        const int next = leads_up ? -1 : *step ? openat(at, step, flags | O_NOFOLLOW) : dup(at);
-        const int reason = leads_up ? EXDEV : errno;
-        close(at);
-        errno = reason;
-        at = next;
-    }
-    return at;
-}
-
-/* Opens a path below the root. */
-static int open_below(const char *root, const char *relative)
-{
-    const int folder = open(root, O_PATH | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0)
-        return -1;
-    const struct open_how how = {.flags = KILN_FILE_FLAGS,
-                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
-    int file, tries = 0;
-    do { /* EAGAIN: something was renamed meanwhile, and the kernel cannot be sure */
-        file = (int)syscall(SYS_openat2, folder, relative, &how, sizeof how);
-    } while (file < 0 && (errno == EAGAIN || errno == EINTR) && tries++ < 100);
-    if (file < 0 && (errno == ENOSYS || errno == EPERM))
-        file = open_steps(folder, relative);
-    const int reason = errno;
-    close(folder);
-    errno = reason;
-    return file;
-}
-
 static int open_file(const struct kiln_loader *loader, const struct kiln_loader_file *file,
                      struct kiln_error *error)
 {
@@ -183,7 +139,8 @@ static int open_file(const struct kiln_loader *loader, const struct kiln_loader_
                        file->path);
         return -1;
     }
-    const int found = root ? open_below(root, relative) : open(file->path, KILN_FILE_FLAGS);
+    const int found = root ? kiln_file_open_below(root, relative, KILN_FILE_FLAGS)
+                           : open(file->path, KILN_FILE_FLAGS);
     if (found < 0 && root && (errno == EXDEV || errno == ELOOP))
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path leads outside the asset root",
                        file->path);
