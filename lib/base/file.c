@@ -61,15 +61,9 @@ static bool read_bytes(int file, const char *path, char *text, size_t expected, 
     return true;
 }
 
-char *kiln_text_file_read(const char *path, const char *what, size_t limit, size_t *size,
+char *kiln_text_file_take(int file, const char *path, const char *what, size_t limit, size_t *size,
                           struct kiln_error *error)
 {
-    /* Without O_NONBLOCK, opening a pipe would wait for its writer. */
-    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) {
-        kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
-        return NULL;
-    }
     size_t expected = 0;
     char *text = NULL;
     if (check_file(file, path, what, limit, &expected, error)) {
@@ -83,4 +77,15 @@ char *kiln_text_file_read(const char *path, const char *what, size_t limit, size
     }
     close(file);
     return text;
+}
+
+char *kiln_text_file_read(const char *path, const char *what, size_t limit, size_t *size,
+                          struct kiln_error *error)
+{
+    /* Without O_NONBLOCK, opening a pipe would wait for its writer. */
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file >= 0)
+        return kiln_text_file_take(file, path, what, limit, size, error);
+    kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
+    return NULL;
 }

@@ -27,4 +27,8 @@ const char *kiln_path_below(const char *path, const char *folder);
 char *kiln_text_file_read(const char *path, const char *what, size_t limit, size_t *size,
                           struct kiln_error *error);
 
+/* Does the same with a file that the caller has opened, which it closes. */
+char *kiln_text_file_take(int file, const char *path, const char *what, size_t limit, size_t *size,
+                          struct kiln_error *error);
+
 #endif
