@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "suite/result_member.h"
+#include "suite/test_file.h"
 
 enum { MOST_WORDS = 256 };
 
@@ -133,8 +134,12 @@ static bool is_golden_folder(const struct checking *c, const char *folder)
            strncmp(rest + 1, name, length) == 0;
 }
 
+/* Returns whether a word is the path of the test. It must not be taken for an option, nor for the
+ * second word of a command, such as `kiln test approve`. */
 static bool is_test(const struct checking *c, const char *word)
 {
+    if (*word == '-' || !kiln_test_file_is_yaml(word))
+        return false;
     const char *rest = *c->result->test ? match(word, c->result->test) : NULL;
     return rest && *rest == '\0';
 }
@@ -155,6 +160,8 @@ enum verdict { REFUSED, LEFT_OUT, KEPT };
 /* Decides what becomes of an option of a command with its value. */
 static enum verdict judge_option(const struct checking *c, const char *option, const char *value)
 {
+    if (*value == '-')
+        return REFUSED;
     if (strcmp(option, "--golden") == 0) {
         if (!is_golden_folder(c, value))
             return REFUSED;
@@ -197,9 +204,10 @@ static bool rebuild(const struct checking *c, const char *const *words)
     for (const char *word; (word = *words); words++) {
         const bool is_flag =
             !c->approves && (strcmp(word, "--ignore-hashes") == 0 || strcmp(word, "--strict") == 0);
-        const bool is_name = strcmp(word, c->result->name) == 0 || is_test(c, word);
-        names_test = names_test || is_name;
-        if (is_flag || is_name) {
+        const bool is_name = c->approves && strcmp(word, c->result->name) == 0;
+        const bool is_operand = is_name || is_test(c, word);
+        names_test = names_test || is_operand;
+        if (is_flag || is_operand) {
             keep(c, word);
             continue;
         }

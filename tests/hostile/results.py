@@ -268,6 +268,28 @@ def try_commands_of_others(run):
             assert code == 3 and "allowed is the command that kiln test writes" in text, (command, key, text)
 
 
+def try_tests_that_are_no_files(run):
+    """A result chooses the path of its test, which must not become an option or a second word of kiln test."""
+    for test in ("--update=all", "approve", "approve --all", "-", "report", "./--update=all"):
+        run.change(test=test, rerun=f"kiln test {test}", approve="")
+        code, text = kiln("test", "report", "out/test", cwd=run.root)
+        assert code == 3 and "allowed is the command that kiln test writes" in text, (test, text)
+        run.change(rerun=f"kiln test {test} spark")
+        code, text = kiln("test", "report", "out/test", cwd=run.root)
+        assert code == 3, (test, text)
+        run.change(rerun="", approve=f"kiln test approve {test}")
+        code, text = kiln("test", "report", "out/test", cwd=run.root)
+        assert code == 3, (test, text)
+    run.change(test="--update.yaml", rerun="kiln test --update.yaml", approve="")
+    code, text = kiln("test", "report", "out/test", cwd=run.root)
+    assert code == 3, text
+    run.change(rerun="kiln test --device --update=all ./--update.yaml")
+    code, text = kiln("test", "report", "out/test", cwd=run.root)
+    assert code == 3, text
+    run.change(rerun="kiln test ./--update.yaml")
+    assert offered(run)[0] == "kiln test ./--update.yaml"
+
+
 def offered(run):
     """Returns the commands that the report's page offers for copying."""
     kiln("test", "report", "out/test", "--json=r.json", "--force", cwd=run.root)
@@ -303,6 +325,8 @@ def try_markers(run):
         outputs["approve"] = kiln("test", "approve", "spark", cwd=run.root)[1]
         run.change(status="error", code=3)
         outputs["error"] = kiln("test", "approve", "spark", cwd=run.root)[1]
+        run.change(status="skip", code=0)
+        outputs["skipped"] = kiln("test", "report", "out/test", "--no-report", "-q", "--tap", "-", cwd=run.root)[1]
         run.change(status="new", code=7)
         for name, output in outputs.items():
             own = re.sub(r"^::(error|warning|notice) .*$", "", output, flags=re.M) if name == "github" else output

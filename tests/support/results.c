@@ -104,7 +104,7 @@ static void test_fill_bad(struct test_results *all)
     test_frame(result, 24, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, -1);
     test_frame(result, 96, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS, 0.03125)->message =
         "flip.mean 0.03125 > 0.01";
-    result->rerun = "kiln test fail/metrics";
+    result->rerun = "kiln test tests/scene.test.yaml";
     result->approve = "kiln test approve fail/metrics";
 
     result = test_result(all, 4, "fail/state", KILN_TEST_FAIL, "the simulation changed");

@@ -117,6 +117,7 @@ static struct kiln_result full_result(struct kiln_arena *arena, uint32_t frames,
     fill(kiln_result_members, &result, &next, arena);
     result.status = KILN_TEST_NEW;
     result.name = "effects/fire";
+    result.test = kiln_arena_format(arena, "%s.yaml", result.test);
     result.rerun = command_of(arena, "kiln test", results, result.test);
     result.approve = command_of(arena, "kiln test approve", results, result.name);
     for (size_t i = 0; i < COLUMNS; i++)
