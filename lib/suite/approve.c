@@ -130,20 +130,14 @@ static bool find_result(struct approval *a)
                           nearest ? "'?)" : "");
 }
 
-/* Finds the test in the suite, which the user names. */
-static bool find_test(struct approval *a)
+/* Finds the test in the suite, which the user names; NULL when it is not there. */
+static const struct kiln_test *find_test(const struct kiln_approve_params *params)
 {
-    const struct kiln_suite *suite = a->params->suite;
-    for (size_t i = 0; i < suite->count; i++) {
-        if (strcmp(suite->tests[i].full_name, a->params->name) == 0)
-            a->test = &suite->tests[i];
+    for (size_t i = 0; i < params->suite->count; i++) {
+        if (strcmp(params->suite->tests[i].full_name, params->name) == 0)
+            return &params->suite->tests[i];
     }
-    return a->test ||
-           kiln_error_set(
-               a->error, KILN_USAGE,
-               "%s: there is a result, but no such test where tests are looked for; give "
-               "the test's file or folder, too: kiln test approve %s FILE",
-               a->params->name, a->params->name);
+    return NULL;
 }
 
 /* ---- whether the result is current ----------------------------------------------------------- */
@@ -229,8 +223,13 @@ static bool read_result(struct approval *a)
 
 static bool check_test(struct approval *a)
 {
-    if (!find_test(a))
-        return false;
+    a->test = find_test(a->params);
+    if (!a->test)
+        return kiln_error_set(
+            a->error, KILN_USAGE,
+            "%s: there is a result, but no such test where tests are looked for; give the test's "
+            "file or folder, too: kiln test approve %s FILE",
+            a->params->name, a->params->name);
     if (a->test->problem.code != KILN_OK) {
         *a->error = a->test->problem;
         return false;
