@@ -448,6 +448,17 @@ def try_sidecar_that_writes_elsewhere(run):
         assert not target.exists(), f"it wrote {output}"
 
 
+def try_depfile_that_is_a_fifo(run):
+    figure(run)
+    sidecar = run.root / "f.png.figure.json"
+    sidecar.write_text(sidecar.read_text().replace('"f.png"', '"f.png", "--depfile", "d"', 1))
+    for make in (os.mkfifo, lambda path: path.symlink_to("/dev/zero")):
+        (run.root / "f.png").write_bytes(b"stale")
+        make(run.root / "d")
+        kiln("figure", "--update", "f.png", cwd=run.root)
+        (run.root / "d").unlink()
+
+
 def main():
     attacks = {name[4:]: attack for name, attack in globals().items() if name.startswith("try_")}
     failures = 0
