@@ -8,6 +8,7 @@ kiln offers names that a shell would act on: the line must have the name itself 
 evaluates it, or must not have changed, and nothing may be run. SCRIPT is the completion script; for
 zsh, its folder becomes part of the fpath.
 """
+import itertools
 import os
 import pty
 import re
@@ -208,25 +209,29 @@ def press_hostile(name, script, folder):
     os.chmod(os.path.join(programs, "kiln"), 0o755)
     shell, environment = start(name, script, folder, programs, OFFER=offer, GIVEN=given)
     failures = taken = 0
-    for text in NAMES:
-        for quote in QUOTES:
-            if quote == '"' and "!" in text and name == "zsh":
-                continue  # zsh -c keeps the backslash that zsh writes before it, and zsh -i does not
-            with open(offer, "w", encoding="utf-8") as file:
-                file.write(f"word\t{text}\ta note\n")
-            typed = f"kiln {quote}x"
-            line = shell.complete(typed)
-            found = words_of(name, line, folder, environment, given) or \
-                words_of(name, line + quote, folder, environment, given)
-            taken += found == [text]
-            if os.path.exists(owned):
-                os.unlink(owned)
-                found = "a command of theirs was run"
-            if found not in ([text], ["x"]):
-                failures += 1
-                print(f"{typed}<TAB>\n  became   {line}\n  gives    {found}, not {[text]}")
-    print(f"{name}: {len(NAMES) * len(QUOTES)} hostile names, {taken} completed, {failures} failed")
-    return failures + (taken < len(NAMES))
+    for kind, text, quote in itertools.product(("word", "file"), NAMES, QUOTES):
+        if quote == '"' and "!" in text and name == "zsh":
+            continue  # zsh -c keeps the backslash that zsh writes before it, and zsh -i does not
+        path = os.path.join(folder, text)
+        if kind == "file":
+            open(path, "w", encoding="utf-8").close()
+        with open(offer, "w", encoding="utf-8") as file:
+            file.write(f"word\t{text}\ta note\n" if kind == "word" else "file:*\t\t\n")
+        typed = f"kiln {quote}x"
+        line = shell.complete(typed)
+        found = words_of(name, line, folder, environment, given) or \
+            words_of(name, line + quote, folder, environment, given)
+        if kind == "file":
+            os.unlink(path)
+        taken += found == [text]
+        if os.path.exists(owned):
+            os.unlink(owned)
+            found = "a command of theirs was run"
+        if found not in ([text], ["x"]):
+            failures += 1
+            print(f"{kind}: {typed}<TAB>\n  became   {line}\n  gives    {found}, not {[text]}")
+    print(f"{name}: {2 * len(NAMES) * len(QUOTES)} hostile names, {taken} completed, {failures} failed")
+    return failures + (taken < 2 * len(NAMES))
 
 
 def main():
