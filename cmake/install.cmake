@@ -1,6 +1,6 @@
 # Lists what `cmake --install` installs: the program kiln, and kiln-decode, the separate process that decodes
 # strangers' files; the library with its headers, pkg-config file and CMake package; the scenes, examples and
-# documents; the completions of bash and zsh. docs/CMakeLists.txt adds the manual pages and the JSON schemas, and
+# documents; the completions of bash, zsh and fish. docs/CMakeLists.txt adds the manual pages and the JSON schemas, and
 # python/CMakeLists.txt the Python module.
 
 # The pkg-config file computes the prefix of the installation from the folder in which it lies, so that any
@@ -35,3 +35,4 @@ install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln USE_
 install(FILES cmd/completion/kiln.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kiln)
 install(FILES cmd/completion/_kiln DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES cmd/completion/kiln.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

@@ -149,8 +149,10 @@ static bool is_scene(const char *operand)
 static void say(void *user, const char *line)
 {
     const bool *quiet = user;
+    char shown[KILN_MESSAGE_SIZE];
+    kiln_shown(shown, sizeof shown, line);
     if (!*quiet)
-        fprintf(stderr, "%s\n", line);
+        fprintf(stderr, "%s\n", shown);
 }
 
 static struct kiln_bench_params make_params(const struct arguments *arguments, struct lists *lists,

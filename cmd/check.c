@@ -89,11 +89,13 @@ static bool print_scene(const struct kiln_scene *scene, const char *path, bool h
 {
     struct kiln_scene_info info = kiln_scene_info_empty();
     kiln_scene_get_info(scene, &info);
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, path);
     if (hash && several)
-        return printf("%s  %s\n", info.hash, path) >= 0;
+        return printf("%s  %s\n", info.hash, shown) >= 0;
     if (hash)
         return printf("%s\n", info.hash) >= 0;
-    if (several && printf("--- # %s\n", path) < 0)
+    if (several && printf("--- # %s\n", shown) < 0)
         return false;
     return kiln_scene_print(scene, stdout) && kiln_scene_visit_meshes(scene, print_mesh, NULL) &&
            print_work(&info);

@@ -35,12 +35,26 @@ struct value {
                          */
 };
 
-/* Prints a line for the script. Its kind is "word"; "part", after which the shell adds no space; or
- * "folder" or "file:PATTERN", for which the shell lists the files that follow the text. Only a
- * folder or file may have an empty text, since shells read consecutive tabs as one. */
+/* Returns whether a text can stand in a line. A control character in it would end the line or a
+ * column, so that the rest would be taken for another continuation. */
+static bool fits_line(const char *text)
+{
+    for (; *text; text++) {
+        if ((unsigned char)*text < ' ' || *text == 0x7f)
+            return false;
+    }
+    return true;
+}
+
+/* Prints a line for the script, unless the text cannot stand in one. Its kind is "word"; "part",
+ * after which the shell adds no space; or "folder" or "file:PATTERN", for which the shell lists the
+ * files that follow the text. Only a folder or file may have an empty text, since shells read
+ * consecutive tabs as one. */
 static void print_line(const char *kind, const struct value *value, const char *text,
                        const char *note)
 {
+    if (!fits_line(text) || !fits_line(value->line->typed))
+        return;
     printf("%s\t%.*s%s\t%s\n", kind, (int)value->prefix_length, value->line->typed, text, note);
 }
 
@@ -517,11 +531,12 @@ const struct command complete_command = {
     .name = "complete",
     .summary = "say what may follow on a command line",
     .operands = "-- WORD...",
-    .description = "For the scripts that let bash and zsh complete command lines of kiln. The "
-                   "WORDs are a command line without 'kiln'; the last WORD is complete up to the "
-                   "cursor. The command prints a line for each continuation, with tabs between its "
-                   "kind, its text and its meaning. The kind is word, part (no space follows it), "
-                   "folder, or file:PATTERN; for the last two, the shell finds the files.",
+    .description =
+        "For the scripts that let bash, zsh and fish complete command lines of kiln. The "
+        "WORDs are a command line without 'kiln'; the last WORD is complete up to the "
+        "cursor. The command prints a line for each continuation, with tabs between its "
+        "kind, its text and its meaning. The kind is word, part (no space follows it), "
+        "folder, or file:PATTERN; for the last two, the shell finds the files.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

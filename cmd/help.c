@@ -97,18 +97,22 @@ static bool write_tests(FILE *out)
 
 bool help_write_completion(FILE *out)
 {
-    fputs("bash and zsh complete commands, options, their values, keys of scenes and the names of\n"
-          "systems when Tab is pressed. 'cmake --install' puts the scripts where the shells look. "
-          "bash\n"
-          "needs the package bash-completion, zsh needs compinit. To load the scripts by hand, add "
-          "to\n"
-          ".bashrc or .zshrc:\n"
+    fputs("bash, zsh and fish complete commands, options, their values, keys of scenes and the\n"
+          "names of systems when Tab is pressed. 'cmake --install' puts the scripts where the "
+          "shells\n"
+          "look. bash needs the package bash-completion, zsh needs compinit. To load the scripts "
+          "by\n"
+          "hand, add to .bashrc, .zshrc or config.fish:\n"
           "\n"
           "    . PREFIX/share/bash-completion/completions/kiln\n"
           "    fpath=(PREFIX/share/zsh/site-functions $fpath); autoload -U compinit; compinit\n"
+          "    source PREFIX/share/fish/vendor_completions.d/kiln.fish\n"
           "\n"
-          "Before kiln is installed, the scripts are cmd/completion/kiln.bash and the folder of\n"
-          "cmd/completion/_kiln. They ask the kiln that the command line names.\n",
+          "Before kiln is installed, the scripts are cmd/completion/kiln.bash and kiln.fish, and "
+          "the\n"
+          "folder of cmd/completion/_kiln. They ask the kiln that the command line names. Names "
+          "out of\n"
+          "scenes and results are quoted, and those that no system may have are left out.\n",
           out);
     return !ferror(out);
 }
@@ -144,7 +148,7 @@ static const struct topic topics[] = {
     {"events-schema", "the JSON schema of events", help_write_events_schema},
     {"exit-codes", "what each exit code means", write_exit_codes},
     {"environment", "the variables of the environment that kiln reads", help_write_environment},
-    {"completion", "completion of command lines in bash and zsh", help_write_completion},
+    {"completion", "completion of command lines in bash, zsh and fish", help_write_completion},
     {"man", "the manual page, for `man -l`", write_man},
     {"man-scene", "the manual page of scene files", write_man_scene},
 };

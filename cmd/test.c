@@ -372,7 +372,8 @@ static int run_suite(struct test_run *run, struct test_outputs *outputs,
 
 static int run(const struct arguments *arguments)
 {
-    struct test_run run = {.lines.results = arguments_text(arguments, "results", DEFAULT_RESULTS)};
+    struct test_run run = {.lines.results = arguments_text(arguments, "results", DEFAULT_RESULTS),
+                           .lines.arguments = arguments};
     struct test_outputs outputs = {0};
     struct value_list techniques;
     bool ok = value_list_create(&techniques, arguments, "technique");

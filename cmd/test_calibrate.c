@@ -55,7 +55,9 @@ static void print_render(void *user, const char *line)
     const bool *quiet = user;
     if (*quiet)
         return;
-    printf("  %s\n", line);
+    printf("  ");
+    print_name(line);
+    printf("\n");
     fflush(stdout);
 }
 

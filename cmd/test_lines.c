@@ -33,6 +33,14 @@ static bool wants_colour(FILE *out)
     return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !refused;
 }
 
+/* Prints a text out of a result, which the process of a test has written. */
+static void print_text(FILE *out, const char *text)
+{
+    char shown[2 * KILN_MESSAGE_SIZE];
+    kiln_shown(shown, sizeof shown, text);
+    fputs(shown, out);
+}
+
 /* Counts the bytes of UTF-8 that continue a character, since they take no column. */
 static int count_continuation_bytes(const char *name)
 {
@@ -70,8 +78,11 @@ static void print_notes(struct test_lines *lines, const struct kiln_suite *suite
             return;
         lines->written += strncmp(text, "wrote ", 6) == 0;
         lines->to_write += strncmp(text, "would write ", 12) == 0;
-        if (!silent)
-            fprintf(lines->out, "%*s%s\n", STATUS_WIDTH + 2, "", text);
+        if (!silent) {
+            fprintf(lines->out, "%*s", STATUS_WIDTH + 2, "");
+            print_text(lines->out, text);
+            fputc('\n', lines->out);
+        }
     }
 }
 
@@ -80,8 +91,11 @@ static void print_log_place(const struct test_lines *lines, const char *results)
 {
     char path[KILN_PATH_SIZE], line[LOG_LINE_SIZE];
     snprintf(path, sizeof path, "%s/log.txt", results);
-    if (*last_log_line(path, line))
-        fprintf(lines->out, "%*slog: %s\n", STATUS_WIDTH + 2, "", path);
+    if (!*last_log_line(path, line))
+        return;
+    fprintf(lines->out, "%*slog: ", STATUS_WIDTH + 2, "");
+    print_text(lines->out, path);
+    fputc('\n', lines->out);
 }
 
 void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, size_t index,
@@ -97,8 +111,10 @@ void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, s
         if (summary->frames > 0)
             fprintf(lines->out, " %u frame%s in %.3f s", summary->frames,
                     summary->frames == 1 ? "" : "s", summary->total_s);
-        if (summary->message[0])
-            fprintf(lines->out, "%s %s", summary->frames > 0 ? ":" : "", summary->message);
+        if (summary->message[0]) {
+            fputs(summary->frames > 0 ? ": " : " ", lines->out);
+            print_text(lines->out, summary->message);
+        }
         fputc('\n', lines->out);
     }
     print_notes(lines, suite, index, summary, silent);
@@ -126,6 +142,28 @@ void test_lines_counts(FILE *out, const struct kiln_results_summary *summary)
     fputc('\n', out);
 }
 
+/* Prints the paths in which tests were looked for, if they were given; approve looks for them
+ * there, too. */
+static void print_paths(const struct test_lines *lines)
+{
+    for (size_t i = 0; i < lines->arguments->operand_count; i++) {
+        const char *operand = lines->arguments->operands[i];
+        if (!operand_is_path(operand))
+            continue;
+        fprintf(lines->out, *operand == '-' ? " ./" : " ");
+        kiln_write_shell_word(lines->out, operand);
+    }
+}
+
+static void print_folder(const struct test_lines *lines, const char *option, const char *fallback)
+{
+    const char *folder = arguments_text(lines->arguments, option, fallback);
+    if (strcmp(folder, fallback) == 0)
+        return;
+    fprintf(lines->out, " --%s ", option);
+    kiln_write_shell_word(lines->out, folder);
+}
+
 /* Prints the command that accepts the pictures of the one test to accept, or of all tests. */
 static void print_approval(const struct test_lines *lines)
 {
@@ -137,10 +175,9 @@ static void print_approval(const struct test_lines *lines)
         fprintf(out, "--all");
     else
         kiln_write_shell_word(out, lines->approvable);
-    if (strcmp(lines->results, DEFAULT_RESULTS) != 0) {
-        fprintf(out, " --results ");
-        kiln_write_shell_word(out, lines->results);
-    }
+    print_paths(lines);
+    print_folder(lines, "results", DEFAULT_RESULTS);
+    print_folder(lines, "golden", kiln_suite_defaults().golden);
     fputc('\n', out);
 }
 
@@ -162,8 +199,11 @@ static void print_unused(const struct test_lines *lines)
 void test_lines_end(const struct test_lines *lines, const struct kiln_results_summary *summary,
                     const char *page)
 {
-    if (page)
-        fprintf(lines->out, "report: %s\n", page);
+    if (page) {
+        fprintf(lines->out, "report: ");
+        print_text(lines->out, page);
+        fputc('\n', lines->out);
+    }
     if (lines->written > 0)
         fprintf(lines->out, "%u picture%s written: look at %s before you keep %s\n", lines->written,
                 lines->written == 1 ? " was" : "s were", lines->written == 1 ? "it" : "them",

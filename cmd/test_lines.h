@@ -3,17 +3,19 @@
 #define KILN_CMD_TEST_LINES_H
 
 #include "kiln_program.h"
+#include "options.h"
 
 struct test_lines {
     const struct kiln_suite *suite;
     FILE *out;
     bool quiet; /* print only tests that went wrong */
     bool colour;
-    int name_width;             /* width of the column of names, in characters */
-    const char *results;        /* the folder of results, as given */
-    uint32_t written, to_write; /* pictures that updates wrote, or would write */
-    const char *approvable;     /* the last test whose pictures might be accepted */
-    uint32_t approvable_count;  /* number of such tests */
+    int name_width;                    /* width of the column of names, in characters */
+    const char *results;               /* the folder of results, as given */
+    uint32_t written, to_write;        /* pictures that updates wrote, or would write */
+    const struct arguments *arguments; /* of the command line */
+    const char *approvable;            /* the last test whose pictures might be accepted */
+    uint32_t approvable_count;         /* number of such tests */
 };
 
 /* Prepares to print the lines of a suite's run; the suite must outlive them. */

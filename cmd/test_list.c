@@ -29,12 +29,11 @@ static int run(const struct arguments *arguments)
     for (size_t i = 0; code == 0 && i < kiln_suite_count(suite); i++) {
         struct kiln_test_info test = kiln_suite_test(suite, i);
         char path[KILN_PATH_SIZE];
-        if (for_person) /* a program gets the paths unescaped */
+        /* A program gets the paths unescaped, unless a CI server would take one for a command. */
+        const bool is_shown = for_person || kiln_has_marker(test.path);
+        if (is_shown)
             kiln_shown(path, sizeof path, test.path);
-        printf("%s%s%s\n", test.name, files ? "\t" : "",
-               !files       ? ""
-               : for_person ? path
-                            : test.path);
+        printf("%s%s%s\n", test.name, files ? "\t" : "", !files ? "" : is_shown ? path : test.path);
     }
     kiln_suite_destroy(&suite);
     return code;

@@ -36,8 +36,11 @@ static int write_reports(const struct arguments *arguments, struct test_outputs 
         test_lines_counts(out, &summary);
         kiln_write_frames(out, &summary);
         fputc('\n', out);
-        if (outputs->page)
-            fprintf(out, "report: %s\n", outputs->page);
+        if (outputs->page) {
+            char page[KILN_PATH_SIZE];
+            kiln_shown(page, sizeof page, outputs->page);
+            fprintf(out, "report: %s\n", page);
+        }
     }
     return (int)code;
 }

@@ -8,9 +8,7 @@
 #include "command.h"
 #include "report.h"
 
-/* Returns whether an operand is a path. One that does not exist but looks like a file is a path all
- * the same: the error then names a file. */
-static bool is_path(const char *operand)
+bool operand_is_path(const char *operand)
 {
     size_t length = strlen(operand);
     return access(operand, F_OK) == 0 ||
@@ -29,7 +27,7 @@ static void suggest_command(const char *command, const char *word)
             names[count++] = commands[i]->name + length + 1;
     }
     const char *nearest = kiln_text_nearest(word, names, count);
-    if (nearest && !is_path(word))
+    if (nearest && !operand_is_path(word))
         report(KILN_USAGE, "%s: '%s' is no command either (did you mean 'kiln %s %s'?)", command,
                word, command, nearest);
 }
@@ -59,7 +57,7 @@ int select_tests(struct kiln_suite **suite, const struct arguments *arguments, c
         params.paths = paths;
         params.names = names;
         for (size_t i = 0; i < arguments->operand_count; i++) {
-            if (is_path(arguments->operands[i]))
+            if (operand_is_path(arguments->operands[i]))
                 paths[params.path_count++] = arguments->operands[i];
             else
                 names[params.name_count++] = arguments->operands[i];

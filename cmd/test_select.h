@@ -48,6 +48,10 @@
     "that the goldens' folder lies in, or from the nearest folder with a file .kiln-tests: "       \
     "effects/fire."
 
+/* Returns whether an operand is a path. One that does not exist but looks like a file is a path all
+ * the same: the error then names a file. */
+bool operand_is_path(const char *operand);
+
 /* Finds the tests that a command line selects; the suite does not refer to the arguments. Returns
  * 0, or the exit code after reporting what is wrong; to find no test is an error. The caller
  * destroys the suite. */

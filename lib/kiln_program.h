@@ -198,10 +198,15 @@ const char *kiln_text_nearest(const char *name, const char *const *candidates, s
 bool kiln_write_shell_word(FILE *out, const char *word);
 
 /* Copies an untrusted text so that it has no effect on a terminal, a log or a page: controls,
- * overrides of direction and bytes that are not UTF-8 become escapes such as \n, \x1b or \u202e. A
- * text that was copied so before stays as it is. A text longer than `room` is cut between
- * characters. `out` may not be `text`. Messages of errors and of the log are already copied so. */
+ * overrides of direction and bytes that are not UTF-8 become escapes such as \n, \x1b or \u202e,
+ * and a blank breaks what a server of continuous integration would take for a command, such as
+ * "##vso[", or "::" at the start. A text that was copied so before stays as it is. A text longer
+ * than `room` is cut between characters. `out` may not be `text`. Messages of errors and of the log
+ * are already copied so. */
 void kiln_shown(char *out, size_t room, const char *text);
+
+/* Returns whether a text has such a command of a server anywhere, or at its start. */
+bool kiln_has_marker(const char *text);
 
 #include "kiln_batch.h"
 #include "kiln_bench.h"

@@ -156,8 +156,8 @@ enum kiln_approve_as {
     KILN_APPROVE_ALTERNATIVE, /* as one more golden, any of which a picture may match */
 };
 struct kiln_approve_params {
-    const char *results; /* the folder of the results */
-    const char *name;    /* name of the test */
+    const struct kiln_suite *suite; /* has the test and the folders of goldens and results */
+    const char *name;               /* full name of the test */
     enum kiln_approve_as as;
     const char *device;        /* approve only results of a device whose name contains this; NULL:
                                   of any device */
@@ -166,9 +166,11 @@ struct kiln_approve_params {
     void *user;
 };
 
-/* Approves the frames of a result that are new, fail, change or draw a warning. KILN_USAGE with the
- * nearest name when there is no result of this name; KILN_INVALID_INPUT when the result has no
- * pictures, or when the scene, the pictures or the goldens have changed since the run; KILN_IO. */
+/* Approves the frames of a result that are new, fail, change or draw a warning. The result may come
+ * from a stranger: what is written, and where, follows from the suite, and the result must agree
+ * with it. KILN_USAGE with the nearest name when there is no result of this name, or when the suite
+ * does not have the test; KILN_INVALID_INPUT when the result has no pictures, or when the test, the
+ * scene, the pictures or the goldens are others than in the run; KILN_IO. */
 bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_error *error);
 
 /* How limits are calibrated. Calibration renders a test with several devices, threads and

@@ -17,7 +17,7 @@ option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check 
 # test NAME with KILN_ALL_TESTS, when it checks all its cases and not only a sample (test_is_full,
 # tests/support/parts.h).
 set(kiln_test_times
-    "3 cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
+    "3 completion.bash completion.fish cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
         docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
         faults.kill_flipbook faults.starved_mp4 fuzz.answers fuzz.part gpu.backdrop gpu.backdrop_turned
         gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
@@ -25,10 +25,10 @@ set(kiln_test_times
         hostile_slow_helper mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.size unit.bounces
         unit.depth_maps unit.fragments unit.image unit.output unit.parts unit.scene_place unit.sort unit.state unit.stopping
         unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"
-    "5 all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
+    "5 completion.zsh all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
         gpu.backdrop_shapes gpu.occlusion gpu.particles gpu.rasters hostile_smoke install mutation.shapes
         mutation.turned python.module queue.smoke unit.clips unit.field unit.sun_cover"
-    "10 all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.render cli.stop docs.scenes
+    "10 hostile_results all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.render cli.stop docs.scenes
         fuzz.mesh golden.software gpu.billboards gpu.crowds gpu.instances gpu.lens gpu.long_loops gpu.oit
         gpu.shadows gpu.shutter gpu.sort gpu.states hostile_swap mutation.effects package.lintian unit.host unit.motion
         unit.slots versions.0.1"

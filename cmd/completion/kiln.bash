@@ -43,10 +43,18 @@ _kiln()
             ;;
         esac
         text=${text:start}
-        if [[ ! $quote ]]; then
+        # Names come out of scenes and results of others, so they are quoted as the line needs it.
+        case $quote in
+        \') text=${text//\'/\'\\\'\'} ;;
+        \")
+            [[ $text == *!* ]] && continue # nothing quotes it between double quotes
+            text=${text//\\/\\\\} text=${text//\"/\\\"} text=${text//\$/\\$} text=${text//\`/\\\`}
+            ;;
+        *)
             printf -v text %q "$text"
             text=${text//\\,/,} # a comma needs no quoting
-        fi
+            ;;
+        esac
         COMPREPLY+=("$text")
     done < <("${words[0]}" complete -- "${words[@]:1}" "$word" 2>/dev/null)
 }

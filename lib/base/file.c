@@ -62,9 +62,10 @@ static bool read_bytes(int file, const char *path, char *text, size_t expected, 
 char *kiln_text_file_take(int file, const char *path, const char *what, size_t limit, size_t *size,
                           struct stat *status, struct kiln_error *error)
 {
-    if (!check_file(file, path, what, limit, status, error))
+    struct stat own, *found = status ? status : &own;
+    if (!check_file(file, path, what, limit, found, error))
         return NULL;
-    const size_t expected = (size_t)status->st_size;
+    const size_t expected = (size_t)found->st_size;
     char *text = malloc(expected + 1);
     if (!text) {
         kiln_error_no_memory(error, "%s", path);

@@ -28,7 +28,7 @@ char *kiln_text_file_read(const char *path, const char *what, size_t limit, size
                           struct kiln_error *error);
 
 /* Does what kiln_text_file_read does, for a file that is open for reading and stays open. *status
- * becomes what the system says of it (fstat). `path` is for messages. */
+ * becomes what the system says of it (fstat), unless it is NULL. `path` is for messages. */
 struct stat;
 char *kiln_text_file_take(int file, const char *path, const char *what, size_t limit, size_t *size,
                           struct stat *status, struct kiln_error *error);

@@ -49,46 +49,6 @@ bool kiln_file_check(int file, const char *path, const char *what, const char *a
                           "%s: the %s is a Git LFS pointer: run git lfs pull", path, what);
 }
 
-/* Opens a path component by component and follows no link. It replaces openat2 on an older kernel,
- * or in a container that forbids the call. */
-static int open_steps(int folder, const char *relative)
-{
-    char path[KILN_PATH_SIZE];
-    int at = dup(folder);
-    if (snprintf(path, sizeof path, "%s", relative) >= (int)sizeof path)
-        path[0] = '\0';
-    char *rest = path;
-    for (const char *step; at >= 0 && (step = strsep(&rest, "/"));) {
-        const int flags = rest ? O_PATH | O_DIRECTORY | O_CLOEXEC : KILN_FILE_FLAGS;
-        const bool leads_up = strcmp(step, "..") == 0;
-        const int next = leads_up ? -1 : *step ? openat(at, step, flags | O_NOFOLLOW) : dup(at);
-        const int reason = leads_up ? EXDEV : errno;
-        close(at);
-        errno = reason;
-        at = next;
-    }
-    return at;
-}
-
-int kiln_file_open_below(const char *folder, const char *relative)
-{
-    const int opened = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
-    if (opened < 0)
-        return -1;
-    const struct open_how how = {.flags = KILN_FILE_FLAGS,
-                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
-    int file, tries = 0;
-    do { /* EAGAIN: something was renamed meanwhile, and the kernel cannot be sure */
-        file = (int)syscall(SYS_openat2, opened, relative, &how, sizeof how);
-    } while (file < 0 && (errno == EAGAIN || errno == EINTR) && tries++ < 100);
-    if (file < 0 && (errno == ENOSYS || errno == EPERM))
-        file = open_steps(opened, relative);
-    const int reason = errno;
-    close(opened);
-    errno = reason;
-    return file;
-}
-
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,
                    struct kiln_error *error)
 {
@@ -101,6 +61,71 @@ int kiln_file_open(const char *path, const char *what, const char *allowed, size
     }
     return file;
 }
+
+/* ---- Below a folder -------------------------------------------------------------------------- */
+
+/* Opens one name in a folder and follows no link. A link before the last name counts as a way out,
+ * since this function cannot tell where it leads. */
+static int open_step(int folder, const char *name, bool is_last, int flags)
+{
+    struct stat status;
+    if (strcmp(name, "..") == 0) {
+        errno = EXDEV;
+        return -1;
+    }
+    const int step_flags = is_last ? flags : O_PATH | O_DIRECTORY | O_CLOEXEC;
+    const int opened = openat(folder, name, step_flags | O_NOFOLLOW);
+    const int reason = errno;
+    const bool is_link = opened < 0 && (reason == ELOOP || reason == ENOTDIR) &&
+                         fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                         S_ISLNK(status.st_mode);
+    errno = !is_link ? reason : is_last && (flags & O_NOFOLLOW) ? ELOOP : EXDEV;
+    return opened;
+}
+
+/* Opens a path component by component and follows no link. It replaces openat2 on an older kernel,
+ * or in a container that forbids the call. */
+static int open_steps(int folder, const char *relative, int flags)
+{
+    char path[KILN_PATH_SIZE];
+    int at = dup(folder);
+    if (snprintf(path, sizeof path, "%s", relative) >= (int)sizeof path)
+        path[0] = '\0';
+    char *rest = path;
+    for (const char *step; at >= 0 && (step = strsep(&rest, "/"));) {
+        const int next = *step ? open_step(at, step, !rest, flags) : dup(at);
+        const int reason = errno;
+        close(at);
+        errno = reason;
+        at = next;
+    }
+    return at;
+}
+
+int kiln_file_open_below(const char *folder, const char *path, int flags)
+{
+    if (*path == '/') {
+        errno = EXDEV;
+        return -1;
+    }
+    const int root = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (root < 0)
+        return -1;
+    const struct open_how how = {.flags = (unsigned)flags,
+                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
+    int file, tries = 0;
+    do { /* EAGAIN: something was renamed meanwhile, and the kernel cannot be sure */
+        file = (int)syscall(SYS_openat2, root, path, &how, sizeof how);
+    } while (file < 0 && (errno == EAGAIN || errno == EINTR) && tries++ < 100);
+    if (file < 0 && (errno == ENOSYS || errno == EPERM))
+        file = open_steps(root, path, flags);
+    const int reason = errno;
+    close(root);
+    errno = reason;
+    return file;
+}
+
+/* ---- Reading --------------------------------------------------------------------------------- */
 
 static bool read_all(int file, unsigned char *bytes, size_t size)
 {

@@ -22,12 +22,11 @@ enum { KILN_FILE_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,
                    struct kiln_error *error);
 
-/* Opens a path below a folder for reading, and nothing outside of the folder, even if names and
- * links in it are changed meanwhile. `relative` is the path from the folder. Links within the
- * folder are followed, except on a kernel or in a container without openat2, where no link is.
- * Returns the descriptor, which may be of anything (kiln_file_check), or -1 with errno: EXDEV or
- * ELOOP where the path leads outside. */
-int kiln_file_open_below(const char *folder, const char *relative);
+/* Opens a path below a folder, wherever links lead while it is opened. `flags` are those of open.
+ * Returns the descriptor, which the caller closes, or -1 with errno: EXDEV where the path leads out
+ * of the folder by "..", by a link or because it is absolute, whether or not something is there;
+ * ELOOP where O_NOFOLLOW is among the flags and the file itself is a link. */
+int kiln_file_open_below(const char *folder, const char *path, int flags);
 
 /* Returns the bytes of a regular file of at most `limit` bytes, which the caller frees. There is
  * room for one byte more, such as a zero. A file that grows meanwhile is read up to the size that
@@ -45,7 +44,7 @@ bool kiln_file_is_lfs_pointer(int file);
 bool kiln_path_is_lfs_pointer(const char *path);
 
 /* These are the steps of kiln_file_read, for a caller that opens the file in its own way and closes
- * it. The loader is one: it opens files only below a given folder.
+ * it, such as the loader, which opens files only below a given folder.
  *
  * kiln_file_check checks that a descriptor is of a regular file that is no pointer of Git LFS, and
  * finds its size. It returns false with KILN_IO or KILN_INVALID_INPUT. */

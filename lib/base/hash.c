@@ -7,7 +7,10 @@
 #include <nettle/sha2.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/file_in.h"
 
 static void finish(struct sha256_ctx *sha, char hex[65])
 {
@@ -45,10 +48,16 @@ bool kiln_hash_sha256_descriptor(int file, char hex[65])
 
 bool kiln_hash_sha256_file(const char *path, char hex[65])
 {
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    const int file = open(path, KILN_FILE_FLAGS);
     if (file < 0)
         return false;
-    const bool ok = kiln_hash_sha256_descriptor(file, hex);
+    struct stat status;
+    bool ok = fstat(file, &status) == 0;
+    if (ok && !S_ISREG(status.st_mode)) { /* a pipe gives no bytes, and a device may never end */
+        errno = S_ISDIR(status.st_mode) ? EISDIR : ESPIPE;
+        ok = false;
+    }
+    ok = ok && kiln_hash_sha256_descriptor(file, hex);
     const int reason = errno;
     close(file);
     errno = reason;

@@ -13,8 +13,8 @@
 void kiln_hash_sha256(const void *bytes, size_t size, char hex[65]);
 
 /* Write the hash of a file's contents. A descriptor is read from the start of its file, and its
- * offset stays as it is, so a pipe cannot be read. Return false, with errno, when the contents
- * cannot be read. */
+ * offset stays as it is, so a pipe cannot be read. kiln_hash_sha256_file reads regular files alone,
+ * and never waits for a pipe. Return false, with errno, when the contents cannot be read. */
 bool kiln_hash_sha256_file(const char *path, char hex[65]);
 bool kiln_hash_sha256_descriptor(int file, char hex[65]);
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/marker.h"
 #include "base/shown.h"
 
 static struct kiln_json start(bool (*write)(void *, const char *, size_t), void *sink)
@@ -66,7 +67,8 @@ static void begin_line(struct kiln_json *json, int spaces)
 }
 
 /* Writes the escape sequence for the character, or the invalid byte, at c. Returns false if it
- * needs none. */
+ * needs none. The first sign of a marker of a CI server is escaped, too: readers of JSON get the
+ * same text. No string starts a line. */
 static bool escape(const struct kiln_json *json, const char *c, char out[8])
 {
     unsigned char byte = (unsigned char)*c;
@@ -77,7 +79,7 @@ static bool escape(const struct kiln_json *json, const char *c, char out[8])
         snprintf(out, 8, "\\ufffd");
     else if (byte == '"' || byte == '\\')
         snprintf(out, 8, "\\%c", byte);
-    else if (kiln_shown_needs_escape(character) || markup)
+    else if (kiln_shown_needs_escape(character) || markup || kiln_marker_break(c, false) > 0)
         snprintf(out, 8, "\\u%04x", character);
     else
         return false;

@@ -1,11 +1,13 @@
 /* Escapes the characters of a text that would act on a terminal or on the text around them, or that
- * nobody sees. These are Unicode 15's general categories Cc, Zl, Zp and Zs but the usual space, and
- * its properties "Bidi_Control" and "Default_Ignorable_Code_Point". */
+ * nobody sees, and breaks markers of servers of continuous integration. The characters are Unicode
+ * 15's general categories Cc, Zl, Zp and Zs but the usual space, and its properties "Bidi_Control"
+ * and "Default_Ignorable_Code_Point". */
 #include "base/shown.h"
 
 #include <stdio.h>
 #include <string.h>
 
+#include "base/marker.h"
 #include "base/text.h"
 
 size_t kiln_shown_character(const char *text, uint32_t *character)
@@ -48,23 +50,35 @@ void kiln_shown_escape(uint32_t character, bool is_byte, char out[12])
         snprintf(out, 12, "\\u%04x", character);
 }
 
+/* Writes how the first character of a text is shown, of at most 11 bytes. Returns the number of
+ * bytes of the text that this stands for. */
+static size_t show_character(const char *text, bool starts_line, char out[12])
+{
+    uint32_t character;
+    const size_t length = kiln_shown_character(text, &character);
+    const size_t before = kiln_marker_break(text, starts_line);
+    if (before > 0)
+        snprintf(out, 12, "%.*s ", (int)before, text);
+    else if (length == 0 || kiln_shown_needs_escape(character))
+        kiln_shown_escape(character, length == 0, out);
+    else
+        snprintf(out, 12, "%.*s", (int)length, text);
+    return before > 0 ? before : length > 0 ? length : 1;
+}
+
 void kiln_shown(char *out, size_t room, const char *text)
 {
     size_t used = 0;
+    bool starts_line = true;
     while (*text) {
-        char escaped[12];
-        uint32_t character;
-        size_t length = kiln_shown_character(text, &character);
-        const bool escapes = length == 0 || kiln_shown_needs_escape(character);
-        if (escapes)
-            kiln_shown_escape(character, length == 0, escaped);
-        const char *piece = escapes ? escaped : text;
-        const size_t size = escapes ? strlen(escaped) : length;
+        char shown[12];
+        const size_t length = show_character(text, starts_line, shown), size = strlen(shown);
+        starts_line = kiln_marker_starts_line(*text, starts_line);
         if (used + size >= room)
             break;
-        memcpy(out + used, piece, size);
+        memcpy(out + used, shown, size);
         used += size;
-        text += length ? length : 1;
+        text += length;
     }
     if (room > 0)
         out[used] = '\0';

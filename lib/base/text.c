@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/json.h"
+#include "base/shown.h"
 
 bool kiln_text_to_double(const char *text, double *value)
 {
@@ -181,11 +182,43 @@ void kiln_text_add_json(struct kiln_text *text, const char *string)
     kiln_json_string(&json, NULL, string);
 }
 
+/* Returns whether a word has a character that must not come to a terminal as it is. A terminal may
+ * act on it even within quotes, when a person pastes the word. */
+static bool acts_on_terminal(const char *word)
+{
+    uint32_t character;
+    for (size_t length; *word; word += length) {
+        length = kiln_shown_character(word, &character);
+        if (length == 0 || kiln_shown_needs_escape(character))
+            return true;
+    }
+    return false;
+}
+
+/* Adds $'...' (POSIX.1-2024, 2.2.4), of which every byte but printable ASCII is written in octal.
+ */
+static void add_escaped_word(struct kiln_text *text, const char *word)
+{
+    kiln_text_add(text, "$'");
+    for (const char *c = word; *c; c++) {
+        if (*c < ' ' || *c > '~') /* a byte above 127 is negative where char has a sign */
+            kiln_text_add(text, "\\%03o", (unsigned char)*c);
+        else
+            kiln_text_add(text, "%s%c", *c == '\'' || *c == '\\' ? "\\" : "", *c);
+    }
+    kiln_text_add(text, "'");
+}
+
 void kiln_text_add_shell_word(struct kiln_text *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "_@%+=:,./-";
-    bool quoted = !*word || word[strspn(word, plain)];
+    if (acts_on_terminal(word)) {
+        add_escaped_word(text, word);
+        return;
+    }
+    /* zsh reads "=ls" as the path of a program, and fish "%self" as its process. */
+    bool quoted = !*word || strchr("=%", *word) || word[strspn(word, plain)];
     kiln_text_add(text, quoted ? "'" : "");
     for (const char *c = word; *c; c++)
         kiln_text_add(text, "%s%c", *c == '\'' ? "'\\'" : "", *c);

@@ -32,7 +32,8 @@ size_t kiln_text_character_length(const char *text);
 /* Adds a JSON string literal, quotes included. Invalid UTF-8 becomes U+FFFD. */
 void kiln_text_add_json(struct kiln_text *text, const char *string);
 
-/* Adds a word, in quotes where it needs them, so that a POSIX shell reads it as one word. */
+/* Adds a word, in quotes where it needs them, so that a POSIX shell reads it as one word. A word
+ * with characters that a terminal acts on, or that nobody sees, is written as $'...' in ASCII. */
 void kiln_text_add_shell_word(struct kiln_text *text, const char *word);
 
 #endif

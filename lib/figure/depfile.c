@@ -3,8 +3,11 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/error.h"
+#include "base/file_in.h"
 
 struct files {
     const char **paths;
@@ -111,12 +114,16 @@ bool kiln_depfile_is_of(const char *path, const char *target)
     bool ok = add_name(&rule, target, true, &ignored);
     kiln_text_add(&rule, ":");
     ok = ok && !rule.failed;
-    FILE *file = ok ? fopen(path, "rbe") : NULL;
-    for (size_t i = 0; file && ok && i < rule.length; i++)
-        ok = getc(file) == (unsigned char)rule.data[i];
-    ok = ok && file;
-    if (file)
-        fclose(file);
+    /* The path may be that of a stranger's sidecar, so it may lead to a pipe or a device. */
+    const int file = ok && !rule.failed ? open(path, KILN_FILE_FLAGS | O_NOFOLLOW) : -1;
+    char *start = file >= 0 ? malloc(rule.length) : NULL;
+    struct stat status;
+    ok = start && fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+         pread(file, start, rule.length, 0) == (ssize_t)rule.length &&
+         memcmp(start, rule.data, rule.length) == 0;
+    free(start);
+    if (file >= 0)
+        close(file);
     kiln_text_free(&rule);
     return ok;
 }

@@ -2,13 +2,16 @@
  * file, its sidecar and its depfile. If the request names a sidecar to check, it draws the figure
  * again instead, and judges whether the file is what the sidecar says. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "asset/image/image.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_in.h"
 #include "base/hash.h"
 #include "base/temporary.h"
 #include "figure/depfile.h"
@@ -29,6 +32,8 @@ struct job {
     struct kiln_drawing drawing;
     struct kiln_pixels pixels;
     char hash[65]; /* SHA-256 of the pixels */
+    uint8_t *file; /* bytes of the figure that is checked */
+    size_t file_size;
     struct kiln_error *error;
 };
 
@@ -279,19 +284,40 @@ static bool is_own_sidecar(const struct job *job)
            is_same_file(sidecar, &given);
 }
 
+/* Reads the figure's file once, for its hash and its pixels. A figure may come from a stranger, so
+ * it must be a plain file, of no more bytes than a picture has. */
+static bool read_figure(struct job *job)
+{
+    const char *path = job->params->output;
+    const int file = open(path, KILN_FILE_FLAGS | O_NOFOLLOW);
+    if (file < 0 && errno == ELOOP)
+        return kiln_error_set(job->error, KILN_INVALID_INPUT,
+                              "%s: the figure is a link; allowed is a plain file", path);
+    if (file < 0)
+        return kiln_error_set_errno(job->error, KILN_IO, errno, "%s: the figure cannot be opened",
+                                    path);
+    if (kiln_file_check(file, path, "figure", "PNG, JPEG, SVG or PDF", &job->file_size,
+                        job->error) &&
+        kiln_file_check_size(path, "figure", job->file_size, KILN_MAX_IMAGE_BYTES, job->error))
+        job->file = kiln_file_read_bytes(file, path, "figure", job->file_size, job->error);
+    close(file);
+    return job->file != NULL;
+}
+
 /* Marks the figure as stale if its file is missing, or is not the one that its sidecar
  * describes. */
 static bool check_file(struct job *job, const struct kiln_record *record,
                        struct kiln_figure_result *result)
 {
     char file[65];
-    if (access(job->params->output, F_OK) != 0) {
+    struct stat status;
+    if (lstat(job->params->output, &status) != 0 && errno == ENOENT) {
         mark_stale(result, "the figure is missing");
         return true;
     }
-    if (!kiln_hash_sha256_file(job->params->output, file))
-        return kiln_error_set(job->error, KILN_IO, "%s: the file cannot be read",
-                              job->params->output);
+    if (!read_figure(job))
+        return false;
+    kiln_hash_sha256(job->file, job->file_size, file);
     if (strcmp(file, record->file) != 0)
         mark_stale(result, "the file is not the one that was written together with its sidecar");
     return true;
@@ -320,6 +346,8 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
                                             .hash = job->hash,
                                             .format = job->format,
                                             .path = job->params->output,
+                                            .file = job->file,
+                                            .file_size = job->file_size,
                                             .threads = job->params->threads};
     if (!result->stale && !kiln_figure_judge(record, &fresh, result, job->error))
         return false;
@@ -340,6 +368,7 @@ bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figur
     result->height = job.drawing.height;
     result->panels = (uint32_t)job.panels.count;
     free(job.pixels.rgba);
+    free(job.file);
     kiln_claims_destroy(&job.claims);
     kiln_arena_destroy(&job.arena);
     return ok;

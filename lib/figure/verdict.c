@@ -80,7 +80,8 @@ static bool load_both(const struct kiln_fresh_figure *fresh,
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
-    struct kiln_asset_image *images[2] = {kiln_asset_image_load(NULL, fresh->path, error), NULL};
+    struct kiln_asset_image *images[2] = {
+        kiln_asset_image_parse(fresh->file, fresh->file_size, fresh->path, error), NULL};
     if (images[0] && fresh->format->of_pixels(fresh->pixels, NULL, &bytes, &size, error))
         images[1] = kiln_asset_image_parse(bytes, size, fresh->path, error);
     for (int i = 0; i < 2 && images[1]; i++)

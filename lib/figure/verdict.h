@@ -12,7 +12,9 @@ struct kiln_fresh_figure {
     const struct kiln_pixels *pixels;
     const char *hash;
     const struct kiln_figure_format *format;
-    const char *path; /* path of the figure's file */
+    const char *path;    /* path of the figure's file, for messages */
+    const uint8_t *file; /* bytes of that file */
+    size_t file_size;
     uint32_t threads;
 };
 

@@ -135,6 +135,9 @@ static inline uint32_t kiln_option_count(const struct kiln_option *option, const
 /* Returns the row with this name, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);
 
+/* Returns whether a text may name an entry of a map, such as a system. */
+bool kiln_option_is_name(const char *text);
+
 /* Writes " (did you mean 'rate'?)", or a list of all names if none is similar, for a message about
  * an unknown name. */
 void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,

@@ -1,5 +1,4 @@
 /* Implements the option types that hold other options: group, switch, map, list. */
-#include <ctype.h>
 #include <string.h>
 
 #include "option/printer.h"
@@ -94,13 +93,18 @@ const struct kiln_option_type kiln_type_switch = {
 
 enum { MAX_NAME = 32 };
 
-static bool is_name(const char *text)
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+bool kiln_option_is_name(const char *text)
 {
     size_t length = strlen(text);
-    if (length == 0 || length > MAX_NAME || !(isalpha((unsigned char)*text) || *text == '_'))
+    if (length == 0 || length > MAX_NAME || !is_letter(*text))
         return false;
     for (const char *c = text; *c; c++) {
-        if (!isalnum((unsigned char)*c) && *c != '_' && *c != '-')
+        if (!is_letter(*c) && !(*c >= '0' && *c <= '9') && *c != '-')
             return false;
     }
     return true;
@@ -130,7 +134,7 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
         void *item = (char *)field + *count * option->item_size;
         const char *name = entry->key->text;
         size_t before = kiln_reader_enter(reader, name);
-        if (!is_name(name))
+        if (!kiln_option_is_name(name))
             return kiln_reader_error(reader, entry->key,
                                      "a name starts with a letter and has at most %d letters, "
                                      "digits, '_' and '-'",

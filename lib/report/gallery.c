@@ -1,18 +1,27 @@
 /* Plans which pictures are embedded in a report page and which are linked, and writes those that
  * are embedded. Such a picture is read only when it is written, so that one is in memory at a time.
- */
+ * A folder of results may come from a stranger, so its pictures are plain files below it, of the
+ * sizes that they had when they were planned (suite/result_file.h). */
 #include "report/gallery.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
-#include "asset/image/image.h"
 #include "base/error.h"
 #include "base/file_in.h"
 #include "base/text.h"
 #include "report/markup.h"
 #include "report/preview.h"
+
+/* A picture of a result. */
+struct source {
+    struct kiln_result_place place;
+    const char *name; /* of its file */
+    size_t size;      /* when it was planned; 0: it could not be opened */
+};
 
 struct kiln_gallery {
     const struct kiln_results *results;
@@ -20,7 +29,7 @@ struct kiln_gallery {
     const char *page_folder;           /* absolute; "" if it is not known */
     bool link;                         /* link all pictures */
     struct kiln_gallery_place **tests; /* for each test, the places of all frames by role */
-    const char **embedded;             /* paths of the embedded pictures, by number */
+    struct source *embedded;           /* the embedded pictures, by number */
     uint32_t embedded_count, linked_for_size;
     uint64_t bytes; /* of the embedded pictures */
 };
@@ -82,70 +91,119 @@ static void preview_path(const char *path, char out[KILN_PATH_SIZE])
     snprintf(out, KILN_PATH_SIZE, "%.*s.preview.png", (int)stem, path);
 }
 
-static bool make_preview(const char *path, const char *target, struct kiln_error *error)
+static bool make_preview(const unsigned char *bytes, size_t size, const char *path,
+                         const char *target, struct kiln_error *error)
 {
     struct kiln_temporary file = {0};
-    bool ok = kiln_temporary_open(&file, target, error) && kiln_preview_write(path, &file, error) &&
+    bool ok = kiln_temporary_open(&file, target, error) &&
+              kiln_preview_write(bytes, size, path, &file, error) &&
               kiln_temporary_commit(&file, true, error);
     kiln_temporary_discard(&file);
     return ok;
 }
 
-static bool link_to(struct kiln_gallery *gallery, const char *path,
+static void source_path(const struct source *source, char path[KILN_PATH_SIZE])
+{
+    snprintf(path, KILN_PATH_SIZE, "%s/%s/%s", source->place.results, source->place.name,
+             source->name);
+}
+
+/* Reads a picture that a page links to, and makes a preview of one that no browser can show. A page
+ * does not link to what is no plain file. */
+static bool prepare_link(const struct source *source, char target[KILN_PATH_SIZE],
+                         struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    size_t size = 0;
+    unsigned char *bytes = kiln_result_picture_read(&source->place, source->name, &size, error);
+    source_path(source, path);
+    source_path(source, target);
+    bool ok = bytes != NULL;
+    if (ok && !kiln_preview_is_plain(bytes, size)) {
+        preview_path(path, target);
+        ok = make_preview(bytes, size, path, target, error);
+    }
+    free(bytes);
+    return ok;
+}
+
+static bool link_to(struct kiln_gallery *gallery, const struct source *source,
                     struct kiln_gallery_place *place)
 {
     struct kiln_error error = {0};
     char target[KILN_PATH_SIZE];
-    snprintf(target, sizeof target, "%s", path);
-    if (!kiln_preview_is_plain(path)) {
-        preview_path(path, target);
-        if (!make_preview(path, target, &error)) {
-            place->kind = KILN_GALLERY_BROKEN;
-            place->text = kiln_arena_text(gallery->arena, error.message, strlen(error.message));
-            return place->text != NULL;
-        }
+    if (prepare_link(source, target, &error)) {
+        place->kind = KILN_GALLERY_LINKED;
+        place->text = relative_path(gallery, target);
+    } else {
+        place->kind = KILN_GALLERY_BROKEN;
+        place->text = kiln_arena_text(gallery->arena, error.message, strlen(error.message));
     }
-    place->kind = KILN_GALLERY_LINKED;
-    place->text = relative_path(gallery, target);
     return place->text != NULL;
 }
 
 /* ---- The plan ----------------------------------------------------------------------------- */
 
-static bool have_equal_bytes(const char *a, const char *b)
+/* Opens a picture, and finds its size. Returns its descriptor, or -1. */
+static int open_source(struct source *source, struct kiln_error *error)
 {
-    FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
-    bool equal = files[0] && files[1];
-    while (equal) {
+    char path[KILN_PATH_SIZE];
+    const struct kiln_result_file picture = kiln_result_picture(source->name);
+    return kiln_result_file_open(&source->place, &picture, path, &source->size, error);
+}
+
+static bool read_block(int file, char *block, size_t size)
+{
+    for (size_t done = 0; done < size;) {
+        const ssize_t got = read(file, block + done, size - done);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        done += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+static bool have_equal_bytes(struct source *a, struct source *b)
+{
+    struct kiln_error ignored = {0};
+    struct source *const sources[2] = {a, b};
+    int files[2];
+    for (int i = 0; i < 2; i++)
+        files[i] = open_source(sources[i], &ignored);
+    bool equal = files[0] >= 0 && files[1] >= 0 && a->size == b->size;
+    for (size_t left = a->size; equal && left > 0;) {
         char blocks[2][4096];
-        size_t got = fread(blocks[0], 1, sizeof blocks[0], files[0]);
-        equal = fread(blocks[1], 1, sizeof blocks[1], files[1]) == got &&
-                memcmp(blocks[0], blocks[1], got) == 0;
-        if (got < sizeof blocks[0])
-            break;
+        const size_t size = left < sizeof blocks[0] ? left : sizeof blocks[0];
+        equal = read_block(files[0], blocks[0], size) && read_block(files[1], blocks[1], size) &&
+                memcmp(blocks[0], blocks[1], size) == 0;
+        left -= size;
     }
     for (int i = 0; i < 2; i++)
-        if (files[i])
-            fclose(files[i]);
+        if (files[i] >= 0)
+            close(files[i]);
     return equal;
 }
 
-static bool place_picture(struct kiln_gallery *gallery, const char *path,
+static bool place_picture(struct kiln_gallery *gallery, const struct source *given,
                           struct kiln_gallery_place *place)
 {
-    struct stat status;
-    uint64_t size = stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
-    bool fits = gallery->bytes + size <= KILN_GALLERY_BYTES;
+    struct source source = *given;
+    struct kiln_error ignored = {0}; /* a picture that cannot be opened says why in its place */
+    const int file = open_source(&source, &ignored);
+    if (file < 0)
+        source.size = 0;
+    else
+        close(file);
+    bool fits = gallery->bytes + source.size <= KILN_GALLERY_BYTES;
     if (gallery->link || !fits) {
         gallery->linked_for_size += !gallery->link;
-        return link_to(gallery, path, place);
+        return link_to(gallery, &source, place);
     }
     place->kind = KILN_GALLERY_EMBEDDED;
     place->number = gallery->embedded_count;
-    gallery->bytes += size;
-    const char *copy = kiln_arena_text(gallery->arena, path, strlen(path));
-    gallery->embedded[gallery->embedded_count++] = copy;
-    return copy != NULL;
+    gallery->bytes += source.size;
+    gallery->embedded[gallery->embedded_count++] = source;
+    return true;
 }
 
 static bool place_frame(struct kiln_gallery *gallery, size_t test, size_t index)
@@ -157,18 +215,19 @@ static bool place_frame(struct kiln_gallery *gallery, size_t test, size_t index)
         [KILN_GALLERY_RESULT] = frame->picture,
         [KILN_GALLERY_ERROR_MAP] = frame->error_map,
     };
-    char paths[KILN_GALLERY_ROLE_COUNT][KILN_PATH_SIZE];
+    const struct kiln_result_place place = kiln_results_place(gallery->results, test);
+    struct source sources[KILN_GALLERY_ROLE_COUNT];
     for (int i = 0; i < KILN_GALLERY_ROLE_COUNT; i++) {
+        sources[i] = (struct source){place, names[i], 0};
         if (!*names[i])
             continue;
-        snprintf(paths[i], sizeof paths[i], "%s/%s", gallery->results->folders[test], names[i]);
         if (i == KILN_GALLERY_RESULT && *names[KILN_GALLERY_REFERENCE] &&
-            have_equal_bytes(paths[i], paths[KILN_GALLERY_REFERENCE]))
+            have_equal_bytes(&sources[i], &sources[KILN_GALLERY_REFERENCE]))
             places[i] = places[KILN_GALLERY_REFERENCE];
-        else if (!place_picture(gallery, paths[i], &places[i]))
+        else if (!place_picture(gallery, &sources[i], &places[i]))
             return false;
     }
-    return true;
+    return place.results != NULL;
 }
 
 static bool place_test(struct kiln_gallery *gallery, size_t test)
@@ -245,20 +304,52 @@ uint32_t kiln_gallery_linked_for_size(const struct kiln_gallery *gallery)
 
 /* ---- The pictures ------------------------------------------------------------------------- */
 
-/* Returns the bytes of a picture as a PNG that a browser can show. The caller frees them. */
-static unsigned char *read_shown(const char *path, size_t *size, struct kiln_error *error)
+/* Returns the bytes of a preview. It is written to a file in memory, since the folder of results is
+ * not the page's. */
+static unsigned char *read_preview(const unsigned char *picture, size_t picture_size,
+                                   const char *path, size_t *size, struct kiln_error *error)
 {
-    if (kiln_preview_is_plain(path))
-        return kiln_file_read(path, "picture", "PNG", KILN_MAX_IMAGE_BYTES, size, error);
-    char target[KILN_PATH_SIZE];
-    preview_path(path, target);
-    struct kiln_temporary file = {0};
+    struct kiln_temporary memory = {.target = (char *)path,
+                                    .file = memfd_create("kiln", MFD_CLOEXEC)};
     unsigned char *bytes = NULL;
-    if (kiln_temporary_open(&file, target, error) && kiln_preview_write(path, &file, error))
-        bytes = kiln_file_read(kiln_temporary_path(&file), "picture", "PNG", KILN_MAX_IMAGE_BYTES,
-                               size, error);
-    kiln_temporary_discard(&file);
+    if (memory.file < 0) {
+        kiln_error_no_memory(error, "%s", path);
+        return NULL;
+    }
+    const bool is_written = kiln_preview_write(picture, picture_size, path, &memory, error);
+    const off_t end = is_written ? lseek(memory.file, 0, SEEK_END) : -1;
+    if (is_written && memory.failure == 0 && end >= 0 && lseek(memory.file, 0, SEEK_SET) == 0) {
+        *size = (size_t)end;
+        bytes = kiln_file_read_bytes(memory.file, path, "picture", *size, error);
+    } else if (is_written) {
+        kiln_error_no_memory(error, "%s", path);
+    }
+    close(memory.file);
     return bytes;
+}
+
+/* Returns the bytes of a picture as a PNG that a browser can show. The caller frees them. */
+static unsigned char *read_shown(const struct source *source, size_t *size,
+                                 struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    size_t found = 0;
+    source_path(source, path);
+    unsigned char *bytes = kiln_result_picture_read(&source->place, source->name, &found, error);
+    *size = found;
+    if (bytes && found != source->size) {
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: the image had %zu bytes, and now has %zu: results must not change "
+                       "while a report is written",
+                       path, source->size, found);
+        free(bytes);
+        return NULL;
+    }
+    if (!bytes || kiln_preview_is_plain(bytes, found))
+        return bytes;
+    unsigned char *shown = read_preview(bytes, found, path, size, error);
+    free(bytes);
+    return shown;
 }
 
 void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out)
@@ -266,7 +357,7 @@ void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out)
     for (uint32_t i = 0; i < gallery->embedded_count; i++) {
         struct kiln_error error = {0};
         size_t size = 0;
-        unsigned char *bytes = read_shown(gallery->embedded[i], &size, &error);
+        unsigned char *bytes = read_shown(&gallery->embedded[i], &size, &error);
         fprintf(out, "<script type=\"text/plain\" id=\"p%u\"", i);
         if (!bytes) {
             fputs(" data-problem=\"", out);

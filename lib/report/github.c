@@ -9,27 +9,40 @@
  * end in it would start a command of its own. */
 #include <string.h>
 
+#include "base/marker.h"
 #include "base/shown.h"
 #include "report/text.h"
 
-/* Writes a text with the characters in `special` escaped, as GitHub reads them (%0A). Characters
- * outside ASCII that would act on the text around them are written as \uXXXX, and other control
- * characters, except for the tab, are left out. */
-static void write_escaped(FILE *out, const char *text, const char *special)
+/* Writes a character with those in `special` escaped as GitHub reads them (%0A), and others that
+ * would act on the text around them as the program shows them ("\x1b"). Returns its bytes. */
+static size_t write_character(FILE *out, const char *text, const char *special)
 {
     uint32_t character;
-    for (; *text; text++) {
-        const size_t length = kiln_shown_character(text, &character);
-        if (length > 1 &&
-            kiln_shown_needs_escape(character)) { /* such as an override of direction */
-            fprintf(out, "\\u%04x", (unsigned)character);
-            text += length - 1;
-            continue;
-        }
-        if (strchr(special, *text))
-            fprintf(out, "%%%02X", (unsigned char)*text);
-        else if ((unsigned char)*text >= 0x20 || *text == '\t')
-            fputc(*text, out);
+    char escaped[12];
+    const size_t length = kiln_shown_character(text, &character);
+    if (strchr(special, *text))
+        fprintf(out, "%%%02X", (unsigned char)*text);
+    else if (length == 0 || (kiln_shown_needs_escape(character) && *text != '\t')) {
+        kiln_shown_escape(character, length == 0, escaped);
+        fputs(escaped, out);
+    } else
+        fwrite(text, 1, length, out);
+    return length > 0 ? length : 1;
+}
+
+/* Writes a text of any origin. A blank breaks markers of CI servers. */
+static void write_escaped(FILE *out, const char *text, const char *special)
+{
+    bool starts_line = true;
+    while (*text) {
+        const char *const end = text + kiln_marker_break(text, starts_line);
+        const bool is_marker = end > text;
+        starts_line = kiln_marker_starts_line(*text, starts_line);
+        do {
+            text += write_character(out, text, special);
+        } while (text < end);
+        if (is_marker)
+            fputc(' ', out);
     }
 }
 

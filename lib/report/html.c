@@ -143,11 +143,8 @@ static const char *common_folder(const struct kiln_results *results)
 {
     const char *folder = NULL;
     for (size_t i = 0; i < results->count; i++) {
-        size_t length = strlen(results->folders[i]), name = strlen(results->tests[i]->name);
-        if (length <= name + 1)
-            return NULL;
-        const char *own = kiln_arena_text(results->arena, results->folders[i], length - name - 1);
-        if (!own || (folder && strcmp(own, folder) != 0))
+        const char *own = kiln_results_place(results, i).results;
+        if (!own || !*own || (folder && strcmp(own, folder) != 0))
             return NULL;
         folder = own;
     }
@@ -167,7 +164,7 @@ static void write_approval(FILE *out, const void *user)
         return;
     kiln_text_add(&command, "kiln test approve --all");
     if (strcmp(folder, kiln_suite_defaults().results) != 0) {
-        kiln_text_add(&command, " --results ");
+        kiln_text_add(&command, *folder == '-' ? " --results ./" : " --results ");
         kiln_text_add_shell_word(&command, folder);
     }
     if (!command.failed) {

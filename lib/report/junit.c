@@ -1,9 +1,12 @@
 /* Writes a report as JUnit XML that Jenkins and GitLab read. A test of kiln becomes a suite with
  * one case: properties describe the test, and a suite is the only element that may have properties
  * in every dialect. The pictures of frames that do not pass are attachments, named by
- * "[[ATTACHMENT|path]]" in the output of the case. */
+ * "[[ATTACHMENT|path]]" in the output of the case. A server uploads the file at such a path, so it
+ * names none but plain files of the result, and texts cannot contain such a marker. */
 #include <string.h>
+#include <unistd.h>
 
+#include "base/marker.h"
 #include "base/text.h"
 #include "report/markup.h"
 #include "report/text.h"
@@ -12,7 +15,7 @@
 /* ---- XML ---------------------------------------------------------------------------------- */
 
 /* Returns whether a character of valid UTF-8 is written to the document. XML 1.0 forbids most
- * control characters; those from U+007F to U+009F are allowed, but left out, too. */
+ * control characters; those from U+007F to U+009F are allowed, but not written either. */
 static bool is_allowed(const unsigned char *s)
 {
     if (s[0] < 0x20)
@@ -38,21 +41,36 @@ static const char *entity_of(char c)
     }
 }
 
-/* Writes a text as an attribute's value or as content; in content, line feeds and tabs stay as they
- * are. */
+/* Writes a character of an attribute's value, or of content, in which line feeds and tabs stay as
+ * they are. What XML cannot hold becomes U+FFFD: to leave it out could join two halves of a marker.
+ * Returns the bytes of the character. */
+static size_t write_character(FILE *out, const char *text, bool attribute)
+{
+    const size_t length = kiln_text_character_length(text);
+    const char *entity = !attribute && (*text == '\n' || *text == '\t') ? NULL : entity_of(*text);
+    if (length == 0 || !is_allowed((const unsigned char *)text))
+        fputs("\xef\xbf\xbd", out);
+    else if (entity)
+        fputs(entity, out);
+    else
+        fwrite(text, 1, length, out);
+    return length > 0 ? length : 1;
+}
+
+/* Writes a text as an attribute's value or as content. A blank breaks markers of CI servers, which
+ * act on what an XML parser makes of the text. */
 static void write_xml(FILE *out, const char *text, bool attribute)
 {
+    bool starts_line = true;
     while (*text) {
-        size_t length = kiln_text_character_length(text);
-        const char *entity =
-            !attribute && (*text == '\n' || *text == '\t') ? NULL : entity_of(*text);
-        if (length == 0)
-            fputs("\xef\xbf\xbd", out);
-        else if (entity)
-            fputs(entity, out);
-        else if (is_allowed((const unsigned char *)text))
-            fwrite(text, 1, length, out);
-        text += length ? length : 1;
+        const char *const end = text + kiln_marker_break(text, starts_line);
+        const bool is_marker = end > text;
+        starts_line = kiln_marker_starts_line(*text, starts_line);
+        do {
+            text += write_character(out, text, attribute);
+        } while (text < end);
+        if (is_marker)
+            fputc(' ', out);
     }
 }
 
@@ -196,9 +214,10 @@ static const char *error_type(enum kiln_code code)
 
 /* Calls `visit` for the first KILN_REPORT_MAX_FRAMES frames that did not pass, and returns how many
  * such frames are left out. */
-static uint32_t visit_not_passed(FILE *out, const struct kiln_result *result, const char *folder,
+static uint32_t visit_not_passed(FILE *out, const struct kiln_result *result,
+                                 const struct kiln_result_place *place,
                                  void (*visit)(FILE *out, const struct kiln_result_frame *frame,
-                                               const char *folder))
+                                               const struct kiln_result_place *place))
 {
     uint32_t visited = 0, left_out = 0;
     for (size_t i = 0; i < result->frame_count; i++) {
@@ -209,14 +228,15 @@ static uint32_t visit_not_passed(FILE *out, const struct kiln_result *result, co
             continue;
         }
         visited++;
-        visit(out, &result->frames[i], folder);
+        visit(out, &result->frames[i], place);
     }
     return left_out;
 }
 
-static void write_cause(FILE *out, const struct kiln_result_frame *frame, const char *folder)
+static void write_cause(FILE *out, const struct kiln_result_frame *frame,
+                        const struct kiln_result_place *place)
 {
-    (void)folder;
+    (void)place;
     fprintf(out, "frame %u: %s: ", frame->number, kiln_test_status_name(frame->status));
     write_text(out, frame->message);
     fputs("\n", out);
@@ -227,7 +247,7 @@ static void write_causes(FILE *out, const struct kiln_result *result)
 {
     write_text(out, result->message);
     fputs("\n", out);
-    uint32_t left_out = visit_not_passed(out, result, "", write_cause);
+    uint32_t left_out = visit_not_passed(out, result, NULL, write_cause);
     if (left_out)
         fprintf(out, "and %u frames more\n", left_out);
     for (size_t i = 0; i < result->change_count && i < KILN_REPORT_MAX_FRAMES; i++) {
@@ -264,27 +284,47 @@ static void write_problem(FILE *out, const struct kiln_result *result)
     fprintf(out, "</%s>\n", element);
 }
 
-static void write_attachment(FILE *out, const char *folder, const char *file)
+/* Returns whether a CI server may upload a file of the result: a plain one below its folder, at a
+ * path without signs that would end the attachment. */
+static bool may_upload(const struct kiln_result_place *place, const char *file)
 {
-    if (!*file)
+    struct kiln_result_file picture = kiln_result_picture(file);
+    struct kiln_error ignored = {0};
+    char path[KILN_PATH_SIZE];
+    size_t size = 0;
+    picture.limit = SIZE_MAX; /* a log may be long */
+    if (!kiln_result_file_is_name(file) || strpbrk(place->results, "[]|\r\n"))
+        return false;
+    const int opened = kiln_result_file_open(place, &picture, path, &size, &ignored);
+    if (opened >= 0)
+        close(opened);
+    return opened >= 0;
+}
+
+static void write_attachment(FILE *out, const struct kiln_result_place *place, const char *file)
+{
+    if (!*file || !place->results || !may_upload(place, file))
         return;
     fputs("[[ATTACHMENT|", out);
-    write_text(out, folder);
+    write_text(out, place->results);
+    fputs("/", out);
+    write_text(out, place->name);
     fputs("/", out);
     write_text(out, file);
     fputs("]]\n", out);
 }
 
 static void write_frame_pictures(FILE *out, const struct kiln_result_frame *frame,
-                                 const char *folder)
+                                 const struct kiln_result_place *place)
 {
-    write_attachment(out, folder, frame->picture);
-    write_attachment(out, folder, frame->reference);
-    write_attachment(out, folder, frame->error_map);
+    write_attachment(out, place, frame->picture);
+    write_attachment(out, place, frame->reference);
+    write_attachment(out, place, frame->error_map);
 }
 
 /* Writes the output of a case, if there are causes, notes or attachments. */
-static void write_output(FILE *out, const struct kiln_result *result, const char *folder)
+static void write_output(FILE *out, const struct kiln_result *result,
+                         const struct kiln_result_place *place)
 {
     bool quiet = result->status <= KILN_TEST_SKIP ||
                  (result->status == KILN_TEST_ERROR && !*result->log && !result->frame_count);
@@ -298,9 +338,9 @@ static void write_output(FILE *out, const struct kiln_result *result, const char
         write_text(out, result->notes[i]);
         fputs("\n", out);
     }
-    visit_not_passed(out, result, folder, write_frame_pictures);
+    visit_not_passed(out, result, place, write_frame_pictures);
     if (result->status >= KILN_TEST_NEW)
-        write_attachment(out, folder, result->log);
+        write_attachment(out, place, result->log);
     fputs("</system-out>\n", out);
 }
 
@@ -323,8 +363,8 @@ static void write_case_name(FILE *out, const char *name)
     fputs("\"", out);
 }
 
-static void write_case(FILE *out, const struct kiln_result *result, const char *folder,
-                       const char *seconds)
+static void write_case(FILE *out, const struct kiln_result *result,
+                       const struct kiln_result_place *place, const char *seconds)
 {
     fputs("    <testcase", out);
     write_case_name(out, result->name);
@@ -337,7 +377,7 @@ static void write_case(FILE *out, const struct kiln_result *result, const char *
     }
     if (result->status >= KILN_TEST_NEW)
         write_problem(out, result);
-    write_output(out, result, folder);
+    write_output(out, result, place);
     fputs("    </testcase>\n", out);
 }
 
@@ -349,7 +389,8 @@ static void write_counts(FILE *out, const uint32_t counts[KILN_TEST_STATUS_COUNT
     write_attribute(out, "time", seconds);
 }
 
-static void write_suite(FILE *out, const struct kiln_result *result, const char *folder)
+static void write_suite(FILE *out, const struct kiln_result *result,
+                        const struct kiln_result_place *place)
 {
     char seconds[32], started[32];
     kiln_report_text_seconds(seconds, result->total_s);
@@ -365,7 +406,7 @@ static void write_suite(FILE *out, const struct kiln_result *result, const char 
         write_attribute(out, "timestamp", started);
     fputs(">\n", out);
     write_properties(out, result);
-    write_case(out, result, folder, seconds);
+    write_case(out, result, place, seconds);
     fputs("  </testsuite>\n", out);
 }
 
@@ -381,8 +422,10 @@ static bool write_junit(const struct kiln_results *results,
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"kiln\"", out);
     write_counts(out, summary.counts, summary.tests, seconds);
     fputs(">\n", out);
-    for (size_t i = 0; i < results->count; i++)
-        write_suite(out, results->tests[i], results->folders[i]);
+    for (size_t i = 0; i < results->count; i++) {
+        const struct kiln_result_place place = kiln_results_place(results, i);
+        write_suite(out, results->tests[i], &place);
+    }
     fputs("</testsuites>\n", out);
     return true;
 }

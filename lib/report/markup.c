@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/marker.h"
 #include "base/shown.h"
 #include "base/text.h"
 
@@ -72,11 +73,16 @@ static bool is_foreign(const char *text)
 
 void kiln_markup_write_text(FILE *out, const char *text)
 {
+    bool starts_line = true;
     while (*text) {
         size_t length = kiln_text_character_length(text);
         const char *entity = kiln_markup_entity(*text);
+        const size_t marker = kiln_marker_break(text, starts_line);
+        starts_line = kiln_marker_starts_line(*text, starts_line);
         if (length == 0 || is_foreign(text))
             fputs("\xef\xbf\xbd", out);
+        else if (marker > 0) /* a page may go to standard output; a browser shows the same text */
+            fprintf(out, "&#%d;", *text);
         else if (entity)
             fputs(entity, out);
         else

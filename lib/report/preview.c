@@ -10,17 +10,12 @@
 #include "base/error.h"
 #include "output/formats.h"
 
-bool kiln_preview_is_plain(const char *path)
+bool kiln_preview_is_plain(const unsigned char *bytes, size_t size)
 {
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     enum { DEPTH_OFFSET = 24 }; /* of the bit depth in IHDR, the first chunk */
-    unsigned char head[DEPTH_OFFSET + 1];
-    FILE *file = fopen(path, "rb");
-    bool plain = file && fread(head, 1, sizeof head, file) == sizeof head &&
-                 memcmp(head, signature, sizeof signature) == 0 && head[DEPTH_OFFSET] <= 8;
-    if (file)
-        fclose(file);
-    return plain;
+    return size > DEPTH_OFFSET && memcmp(bytes, signature, sizeof signature) == 0 &&
+           bytes[DEPTH_OFFSET] <= 8;
 }
 
 static float value_at(const struct kiln_asset_image *image, size_t index)
@@ -70,9 +65,10 @@ static void convert(const struct kiln_asset_image *image, uint8_t *out)
     }
 }
 
-bool kiln_preview_write(const char *path, struct kiln_temporary *file, struct kiln_error *error)
+bool kiln_preview_write(const unsigned char *bytes, size_t size, const char *name,
+                        struct kiln_temporary *file, struct kiln_error *error)
 {
-    struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
+    struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, name, error);
     struct kiln_picture *picture =
         image ? kiln_picture_create(image->width, image->height, 8, NULL, NULL, 0, error) : NULL;
     if (picture)

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file_in.h"
 #include "base/temporary.h"
 
 static const struct kiln_report_format *const formats[] = {
@@ -54,16 +55,18 @@ static FILE *open_stream(const struct kiln_temporary *file)
     return out;
 }
 
-/* Returns whether a file is a report of the format that kiln wrote; false if it cannot be read. */
+/* Returns whether a file is a report of the format that kiln wrote; false if it cannot be read. It
+ * may lie in the folder of a stranger's results, so it is not waited for. */
 static bool is_own(const struct kiln_report_format *format, const char *path)
 {
     char start[256] = "";
     const size_t length = format->start ? strlen(format->start) : 0;
-    FILE *file = length > 0 ? fopen(path, "rb") : NULL;
-    bool own = file && length <= sizeof start && fread(start, 1, length, file) == length &&
+    const int file = length > 0 ? open(path, KILN_FILE_FLAGS) : -1;
+    bool own = file >= 0 && length <= sizeof start &&
+               pread(file, start, length, 0) == (ssize_t)length &&
                memcmp(start, format->start, length) == 0;
-    if (file)
-        fclose(file);
+    if (file >= 0)
+        close(file);
     return own;
 }
 

@@ -10,12 +10,16 @@
 struct kiln_results {
     struct kiln_arena *arena;
     struct kiln_result **tests; /* ordered by name */
-    const char **folders;       /* folder of each test's result and pictures */
+    const char **folders;       /* folder of each test's result and pictures: RESULTS/NAME */
     size_t count;
     double total_s;
     const char *started;            /* when the earliest test started */
     uint32_t missing_shard, shards; /* as in kiln_results_summary */
 };
+
+/* Returns where the result of a test is, for the files that it names. `results` is "" for a test
+ * whose results are not there. NULL in it when memory is short. */
+struct kiln_result_place kiln_results_place(const struct kiln_results *results, size_t test);
 
 struct kiln_report_format {
     const char *name; /* NULL ends the table */

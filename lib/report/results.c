@@ -1,6 +1,7 @@
 /* Writes the list of a run's tests, RESULTS/run.json, and loads the results of runs: that list, and
  * the result of each test, RESULTS/NAME/result.json. It merges the shards of one run, which may
  * come from several machines, and finds shards that are missing. */
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_in.h"
 #include "base/json.h"
 #include "base/temporary.h"
 #include "kiln_program.h"
@@ -95,20 +97,6 @@ struct loading {
     double total_s;
 };
 
-/* Returns whether a text may be a test's name. A name becomes a folder below the run's folder, so
- * it must not lead out of it. */
-static bool is_test_name(const char *name)
-{
-    for (const char *part = name;; part++) {
-        size_t length = strcspn(part, "/");
-        if (length == 0 || (part[0] == '.' && (length == 1 || (length == 2 && part[1] == '.'))))
-            return false;
-        part += length;
-        if (*part == '\0')
-            return strlen(name) < KILN_PATH_SIZE / 2;
-    }
-}
-
 /* Returns the text under a key of an object; NULL with an error. */
 static const char *text_of(const struct loading *loading, const struct kiln_node *node,
                            const char *key)
@@ -150,6 +138,20 @@ static bool grow(struct loading *loading)
     return true;
 }
 
+/* Returns whether there is a result, of whatever kind the file is. */
+static bool exists(const struct kiln_result_place *place)
+{
+    char below[KILN_PATH_SIZE];
+    struct kiln_error ignored = {0};
+    if (!kiln_path_join(below, place->name, "result.json", &ignored))
+        return true; /* kiln_result_read says what is wrong */
+    const int file = kiln_file_open_below(place->results, below, O_PATH | O_NOFOLLOW | O_CLOEXEC);
+    const bool is_missing = file < 0 && errno == ENOENT;
+    if (file >= 0)
+        close(file);
+    return !is_missing;
+}
+
 static bool load_test(struct loading *loading, const char *run, const struct kiln_node *node)
 {
     struct kiln_error *error = loading->error;
@@ -157,28 +159,21 @@ static bool load_test(struct loading *loading, const char *run, const struct kil
     const char *test = name ? text_of(loading, node, "test") : NULL;
     if (!test)
         return false;
-    char quoted[64], path[KILN_PATH_SIZE], file[KILN_PATH_SIZE];
+    char quoted[64], path[KILN_PATH_SIZE];
     kiln_node_quote(quoted, name);
-    if (!is_test_name(name))
+    if (!kiln_result_name_is_valid(name))
         return kiln_node_error(node, error, "'%s' is not the name of a test", quoted);
-    if (!kiln_path_join(path, run, name, error) ||
-        !kiln_path_join(file, path, "result.json", error))
+    if (!kiln_path_join(path, run, name, error))
         return false;
     char *folder = kiln_arena_text(loading->arena, path, strlen(path));
     if (!folder || !grow(loading))
         return out_of_memory(error);
-    bool exists = access(file, F_OK) == 0;
-    struct kiln_result *result = exists ? kiln_result_read(loading->arena, folder, error)
-                                        : missing_result(loading, name, test);
+    const struct kiln_result_place place = {run, name};
+    const bool is_there = exists(&place);
+    struct kiln_result *result = is_there ? kiln_result_read(loading->arena, &place, error)
+                                          : missing_result(loading, name, test);
     if (!result)
-        return exists ? false : out_of_memory(error);
-    if (strcmp(result->name, name) != 0) {
-        char found[64];
-        kiln_node_quote(found, result->name);
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the file has the result of '%s', but that of '%s' is expected",
-                              file, found, quoted);
-    }
+        return is_there ? false : out_of_memory(error);
     loading->entries[loading->count++] = (struct entry){result, folder, run};
     return true;
 }
@@ -254,8 +249,16 @@ static bool load_run(struct loading *loading, const char *folder)
     struct kiln_error *error = loading->error;
     if (!kiln_path_join(path, folder, "run.json", error))
         return false;
+    const int file = kiln_file_open_below(folder, "run.json", KILN_FILE_FLAGS | O_NOFOLLOW);
+    if (file < 0)
+        return errno == EXDEV || errno == ELOOP
+                   ? kiln_error_set(error, KILN_INVALID_INPUT,
+                                    "%s: the path is a link; allowed is a plain file", path)
+                   : kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "%s", path);
     size_t size = 0;
-    char *text = kiln_text_file_read(path, "the list of a run", MAX_RUN_SIZE, &size, error);
+    char *text =
+        kiln_text_file_take(file, path, "the list of a run", MAX_RUN_SIZE, &size, NULL, error);
+    close(file);
     if (!text)
         return false;
     const struct kiln_origin origin = {
@@ -472,6 +475,17 @@ struct kiln_results_summary kiln_results_summary(const struct kiln_results *resu
         summary.code = kiln_code_worse(summary.code, results->tests[i]->code);
     }
     return summary;
+}
+
+struct kiln_result_place kiln_results_place(const struct kiln_results *results, size_t test)
+{
+    const char *folder = results->folders[test], *name = results->tests[test]->name;
+    const size_t length = strlen(folder), own = strlen(name);
+    struct kiln_result_place place = {"", name};
+    if (length > own + 1 && folder[length - own - 1] == '/' &&
+        strcmp(folder + length - own, name) == 0)
+        place.results = kiln_arena_text(results->arena, folder, length - own - 1);
+    return place;
 }
 
 const char *kiln_results_name(const struct kiln_results *results, size_t index)

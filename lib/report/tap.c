@@ -3,17 +3,23 @@
  * `prove` of Debian 12 fails on any report that says 14. */
 #include <math.h>
 
+#include "base/marker.h"
 #include "base/text.h"
 #include "report/text.h"
 
-/* Writes a description in one line. '#' is escaped, since it would end the description. */
+/* Writes a description in one line. '#' is escaped, since it would end the description, and a blank
+ * breaks other markers of CI servers. */
 static void write_description(FILE *out, const char *text)
 {
-    for (; *text; text++) {
+    for (size_t until_blank = 0; *text; text++) {
         unsigned char c = (unsigned char)*text;
+        const size_t marker = kiln_marker_break(text, false);
+        until_blank = marker > 0 && c != '#' ? marker : until_blank;
         if (c == '#' || c == '\\')
             fputc('\\', out);
         fputc(c < 0x20 || c == 0x7f ? ' ' : c, out);
+        if (until_blank > 0 && --until_blank == 0)
+            fputc(' ', out);
     }
 }
 

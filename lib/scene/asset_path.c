@@ -4,15 +4,18 @@
 #include "scene/asset_path.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_in.h"
 #include "base/log.h"
 #include "base/shown.h"
 
@@ -59,6 +62,19 @@ static bool climbs_out(const char *path)
         path += length + (path[length] == '/');
     }
     return false;
+}
+
+/* Returns whether a path below the root reaches a file outside by a link. It must not tell whether
+ * something is there: the kernel stops at the link, and only a link that is absolute may lead back
+ * into the root. */
+static bool leads_out(const char *root, const char *path, const char *real)
+{
+    const int file = kiln_file_open_below(root, path, O_PATH | O_CLOEXEC);
+    const bool is_crossing = file < 0 && errno == EXDEV;
+    if (file >= 0)
+        close(file);
+    return is_crossing ? !real || !kiln_path_below(real, root)
+                       : real && !kiln_path_below(real, root);
 }
 
 /* Returns an error's message without the absolute path that it begins with; the caller's message
@@ -144,6 +160,10 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     kiln_text_free(&joined);
     if (!real && reason == ENOMEM)
         return kiln_reader_out_of_memory(reader);
+    if (leads_out(root, node->text, real)) {
+        free(real);
+        return kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
+    }
     if (!real) {
         char text[128];
         return kiln_reader_error(reader, node, "cannot open '%s': %s%s", quoted,
@@ -154,9 +174,7 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     }
     struct stat status;
     bool ok = false;
-    if (!kiln_path_below(real, root))
-        kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
-    else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
+    if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
     else if (!check || check_contents(reader, node, check, real, quoted)) {
         ok = kiln_reader_copy_text(reader, real, asset) &&

@@ -251,8 +251,10 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
         kiln_error_no_memory(error, "reading a scene");
     const struct kiln_node *systems = root ? kiln_node_entry(root, "systems") : NULL;
     if (systems && systems->kind == KILN_NODE_MAP) {
-        for (const struct kiln_node *system = systems->first; system; system = system->next)
-            visit(user, system->key->text);
+        for (const struct kiln_node *system = systems->first; system; system = system->next) {
+            if (kiln_option_is_name(system->key->text))
+                visit(user, system->key->text);
+        }
     }
     bool ok = root != NULL;
     kiln_arena_destroy(&arena);

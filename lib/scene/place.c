@@ -138,7 +138,7 @@ int kiln_scene_open(const char *path, const char *asset_root, struct kiln_error 
     char *root = asset_root ? realpath(asset_root, NULL) : NULL;
     char *way = root ? find_way(path, root, &reason) : NULL;
     if (reason == 0) {
-        file = way ? kiln_file_open_below(root, way) : open(path, KILN_FILE_FLAGS);
+        file = way ? kiln_file_open_below(root, way, KILN_FILE_FLAGS) : open(path, KILN_FILE_FLAGS);
         reason = file < 0 ? errno : 0;
     }
     if (way && (reason == EXDEV || reason == ELOOP))

@@ -1,6 +1,9 @@
 /* Accepts pictures of an earlier run, for `kiln test approve`. Nothing is rendered, so everything
  * that the pictures depend on is checked before the first file is written: the scene is loaded
- * again and must be the one that was rendered, and the pictures must be those that were judged. */
+ * again and must be the one that was rendered, and the pictures must be those that were judged.
+ *
+ * The results may come from a stranger. So the test and its goldens are those of the suite, never
+ * those that the result names, and each picture's bytes are read once for its hash and its copy. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -17,13 +20,14 @@
 #include "suite/rendering.h"
 #include "suite/test_file.h"
 
+/* The approval of one result. Only `result` is foreign. */
 struct approval {
     const struct kiln_approve_params *params;
     struct kiln_error *error;
     struct kiln_arena *arena;
-    char folder[KILN_PATH_SIZE]; /* the result's folder */
+    struct kiln_result_place place;
     struct kiln_result *result;
-    struct kiln_test_file file;
+    const struct kiln_test *test;
     struct kiln_expect *expect;
     char *scene_text;
     char scene_hash[65];
@@ -68,57 +72,119 @@ static void add_name(struct names *names, const char *name)
     names->failed |= names->items[names->count++] == NULL;
 }
 
-/* Adds the names of the folders in `folder` that hold a result.json. `name` is the path of `folder`
- * below the folder of all results. A folder that cannot be read is skipped, since no result in it
- * could be approved. */
-static void list_results(struct names *names, const char *folder, const char *name)
+/* Adds the names of the folders in RESULTS/NAME, and whether it holds a result.json. A folder that
+ * cannot be read is skipped, since no result in it could be approved. */
+static bool list_folder(struct names *folders, const char *results, const char *name)
 {
+    const char *folder = kiln_arena_format(folders->arena, "%s/%s", results, name);
     struct dirent **entries = NULL;
-    int count = scandir(folder, &entries, NULL, NULL);
+    int count = folder ? scandir(folder, &entries, NULL, NULL) : 0;
+    bool has_result = false;
+    folders->failed |= !folder;
     for (int i = 0; i < count; i++) {
         const char *entry = entries[i]->d_name;
         struct stat status;
-        const char *path = kiln_arena_format(names->arena, "%s/%s", folder, entry);
+        const char *path = kiln_arena_format(folders->arena, "%s/%s", folder, entry);
         const char *below =
-            kiln_arena_format(names->arena, "%s%s%s", name, *name ? "/" : "", entry);
-        names->failed |= !path || !below;
-        if (strcmp(entry, "result.json") == 0)
-            add_name(names, name);
-        else if (*entry != '.' && path && below && lstat(path, &status) == 0 &&
-                 S_ISDIR(status.st_mode))
-            list_results(names, path, below);
+            kiln_arena_format(folders->arena, "%s%s%s", name, *name ? "/" : "", entry);
+        folders->failed |= !path || !below;
+        has_result |= strcmp(entry, "result.json") == 0;
+        if (path && below && kiln_result_name_is_valid(below) && lstat(path, &status) == 0 &&
+            S_ISDIR(status.st_mode))
+            add_name(folders, below);
         free(entries[i]);
     }
     free(entries);
+    return has_result;
+}
+
+/* Finds the names of all results: of folders with a result.json. */
+static void list_results(struct names *names, const char *results)
+{
+    struct names folders = {.arena = names->arena};
+    add_name(&folders, "");
+    for (size_t i = 0; i < folders.count && !folders.failed; i++) {
+        if (list_folder(&folders, results, folders.items[i]))
+            add_name(names, folders.items[i]);
+    }
+    names->failed |= folders.failed;
 }
 
 static bool find_result(struct approval *a)
 {
-    const struct kiln_approve_params *params = a->params;
+    const char *results = a->params->suite->results_folder, *name = a->params->name;
     struct names names = {.arena = a->arena};
-    list_results(&names, params->results, "");
+    a->place = (struct kiln_result_place){results, name};
+    list_results(&names, results);
     if (names.failed)
         return out_of_memory(a);
     for (size_t i = 0; i < names.count; i++) {
-        if (strcmp(names.items[i], params->name) == 0)
-            return kiln_path_join(a->folder, params->results, params->name, a->error);
+        if (strcmp(names.items[i], name) == 0)
+            return true;
     }
     char quoted[64];
-    const char *nearest = kiln_text_nearest(params->name, names.items, names.count);
-    kiln_node_quote(quoted, params->name);
+    const char *nearest = kiln_text_nearest(name, names.items, names.count);
+    kiln_node_quote(quoted, name);
     return kiln_error_set(a->error, KILN_USAGE, "no result of a test '%s' in %s%s%s%s", quoted,
-                          params->results, nearest ? " (did you mean '" : "",
-                          nearest ? nearest : "", nearest ? "'?)" : "");
+                          results, nearest ? " (did you mean '" : "", nearest ? nearest : "",
+                          nearest ? "'?)" : "");
+}
+
+/* Finds the test in the suite, which the user names; NULL when it is not there. */
+static const struct kiln_test *find_test(const struct kiln_approve_params *params)
+{
+    for (size_t i = 0; i < params->suite->count; i++) {
+        if (strcmp(params->suite->tests[i].full_name, params->name) == 0)
+            return &params->suite->tests[i];
+    }
+    return NULL;
 }
 
 /* ---- whether the result is current ----------------------------------------------------------- */
 
-/* Returns whether `golden` is GOLDEN/NAME for the test's name without its device. */
-static bool is_golden_of(const char *golden, const char *name)
+/* Skips slashes and parts "." of a path. */
+static const char *skip_nothing(const char *path)
 {
-    size_t length = strcspn(name, "@"), folder = strlen(golden);
-    return folder > length + 1 && golden[folder - length - 1] == '/' &&
-           strncmp(golden + folder - length, name, length) == 0;
+    for (;;) {
+        if (*path == '/')
+            path++;
+        else if (path[0] == '.' && (path[1] == '/' || path[1] == '\0'))
+            path++;
+        else
+            return path;
+    }
+}
+
+/* Returns whether two texts are the same path but for slashes and parts ".". No file is looked at,
+ * since one of them is foreign. */
+static bool is_same_path(const char *a, const char *b)
+{
+    if ((*a == '/') != (*b == '/'))
+        return false;
+    for (a = skip_nothing(a), b = skip_nothing(b); *a || *b;
+         a = skip_nothing(a), b = skip_nothing(b)) {
+        const size_t length = strcspn(a, "/");
+        if (length != strcspn(b, "/") || strncmp(a, b, length) != 0)
+            return false;
+        a += length;
+        b += length;
+    }
+    return true;
+}
+
+/* Checks that the result is of the same file and goldens as the test. */
+static bool check_paths(const struct approval *a)
+{
+    const struct kiln_result *r = a->result;
+    const bool same_file = is_same_path(r->test, a->test->path);
+    if (same_file && is_same_path(r->golden, a->test->golden))
+        return true;
+    return kiln_error_set(
+        a->error, KILN_INVALID_INPUT,
+        "%s: the result names the %s '%s', but the test has '%s': approve where "
+        "the test was run%s",
+        a->params->name, same_file ? "goldens" : "file", same_file ? r->golden : r->test,
+        same_file ? a->test->golden : a->test->path, same_file ? ", with the same --golden" : "");
 }
 
 /* Returns whether the result is left alone: it is of another device than params->device, or the
@@ -134,16 +200,11 @@ static bool is_passed_over(const struct approval *a)
 
 static bool read_result(struct approval *a)
 {
-    a->result = kiln_result_read(a->arena, a->folder, a->error);
+    a->result = kiln_result_read(a->arena, &a->place, a->error);
     if (!a->result)
         return false;
     const struct kiln_result *r = a->result;
     char device[KILN_DEVICE_NAME_SIZE];
-    if (strcmp(r->name, a->params->name) != 0 || !is_golden_of(r->golden, r->name))
-        return kiln_error_set(
-            a->error, KILN_INVALID_INPUT,
-            "%s/result.json: the result belongs to another test: it names '%s', with goldens in %s",
-            a->folder, r->name, r->golden);
     if (is_passed_over(a))
         return true;
     if (r->status == KILN_TEST_SKIP)
@@ -155,23 +216,25 @@ static bool read_result(struct approval *a)
     kiln_device_name(r->device_name, device);
     if (!*device || strcmp(device, r->device_name) != 0)
         return kiln_error_set(a->error, KILN_INVALID_INPUT,
-                              "%s/result.json: '%s' is not a device's name", a->folder,
-                              r->device_name);
+                              "%s/%s/result.json: '%s' is not a device's name", a->place.results,
+                              a->place.name, r->device_name);
     return true;
 }
 
-static bool read_test(struct approval *a)
+static bool check_test(struct approval *a)
 {
-    struct kiln_test *test = &a->file.test;
-    if (!kiln_test_file_read(a->arena, a->result->test, &a->file, a->error))
-        return false;
-    if (test->problem.code != KILN_OK) {
-        *a->error = test->problem;
+    a->test = find_test(a->params);
+    if (!a->test)
+        return kiln_error_set(
+            a->error, KILN_USAGE,
+            "%s: there is a result, but no such test where tests are looked for; give the test's "
+            "file or folder, too: kiln test approve %s FILE",
+            a->params->name, a->params->name);
+    if (a->test->problem.code != KILN_OK) {
+        *a->error = a->test->problem;
         return false;
     }
-    test->golden = a->result->golden;
-    test->results = a->folder;
-    return true;
+    return check_paths(a);
 }
 
 static bool print_scene(struct approval *a, const struct kiln_scene *scene)
@@ -190,7 +253,7 @@ static bool check_numbers(struct approval *a, uint32_t scene_frames)
 {
     uint32_t default_frames[2];
     const uint32_t *numbers = NULL;
-    size_t count = kiln_test_frames(&a->file.test, scene_frames, default_frames, &numbers);
+    size_t count = kiln_test_frames(a->test, scene_frames, default_frames, &numbers);
     bool same = count == a->result->frame_count;
     for (size_t i = 0; i < count && same; i++)
         same = a->result->frames[i].number == numbers[i];
@@ -199,7 +262,7 @@ static bool check_numbers(struct approval *a, uint32_t scene_frames)
 
 static bool check_scene(struct approval *a)
 {
-    const struct kiln_test *test = &a->file.test;
+    const struct kiln_test *test = a->test;
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = test->overrides;
     params.override_count = test->override_count;
@@ -245,58 +308,91 @@ static bool check_hashes(struct approval *a, const struct kiln_result_frame *fra
            fail_outdated(a, changed);
 }
 
+/* Computes the hash of a picture of the result; bytes receives those of its file. */
+static bool read_picture(const struct approval *a, const char *name, unsigned char **bytes,
+                         size_t *size, char pixels[65])
+{
+    char path[KILN_PATH_SIZE];
+    *bytes = kiln_result_picture_read(&a->place, name, size, a->error);
+    return *bytes &&
+           snprintf(path, sizeof path, "%s/%s/%s", a->place.results, a->place.name, name) > 0 &&
+           kiln_pixel_hash_of(*bytes, *size, path, pixels, a->error);
+}
+
+/* Reads the picture of a frame, which must be the one that was judged. The caller frees *bytes,
+ * also after a failure. */
+static bool read_judged(const struct approval *a, const struct kiln_result_frame *frame,
+                        unsigned char **bytes, size_t *size, char pixels[65])
+{
+    if (!read_picture(a, frame->picture, bytes, size, pixels))
+        return false;
+    return strcmp(pixels, frame->pixels) == 0 ||
+           kiln_error_set(
+               a->error, KILN_INVALID_INPUT,
+               "%s/%s/%s: the file is not the picture that was judged: its pixels have changed "
+               "since the run",
+               a->place.results, a->place.name, frame->picture);
+}
+
+/* Returns the path of the golden that the frame was judged by, or of the one that it would have:
+ * that among the test's goldens which the result names; NULL if it names none of them. */
+static const char *find_golden(const struct kiln_goldens *goldens,
+                               const struct kiln_result_frame *frame)
+{
+    for (size_t i = 0; i == 0 || i < goldens->count; i++) {
+        if (is_same_path(goldens->paths[i], frame->golden))
+            return goldens->paths[i];
+    }
+    return NULL;
+}
+
 /* Checks that the golden that the picture was judged by has not changed, or that there is still
  * none. A golden with the picture's own pixels is allowed: the picture was approved before. */
 static bool check_golden(struct approval *a, const struct kiln_result_frame *frame)
 {
     static const char changed[] = "its goldens have changed since the run";
     struct kiln_goldens goldens;
-    char path[KILN_PATH_SIZE], golden[65], reference[65];
-    if (a->file.test.golden_form == KILN_GOLDEN_HASH)
+    char golden[65], reference[65];
+    if (a->test->golden_form == KILN_GOLDEN_HASH)
         return check_hashes(a, frame, changed);
-    if (!kiln_goldens_find(&a->file.test, frame->number, a->result->device_name, &goldens,
-                           a->error))
+    if (!kiln_goldens_find(a->test, frame->number, a->result->device_name, &goldens, a->error))
         return false;
-    bool found = goldens.count == 0 && strcmp(goldens.paths[0], frame->golden) == 0;
-    for (size_t i = 0; i < goldens.count; i++)
-        found |= strcmp(goldens.paths[i], frame->golden) == 0;
-    if (!found)
+    const char *path = find_golden(&goldens, frame);
+    if (!path)
         return fail_outdated(a, changed);
     if (goldens.count == 0)
         return !*frame->reference || fail_outdated(a, changed);
-    if (!kiln_pixel_hash(frame->golden, golden, a->error))
+    if (!kiln_pixel_hash(path, golden, a->error))
         return false;
     if (strcmp(golden, frame->pixels) == 0)
         return true;
-    if (!*frame->reference || strchr(frame->reference, '/'))
+    if (!*frame->reference)
         return fail_outdated(a, changed);
-    return kiln_path_join(path, a->folder, frame->reference, a->error) &&
-           kiln_pixel_hash(path, reference, a->error) &&
-           (strcmp(golden, reference) == 0 || fail_outdated(a, changed));
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    const bool is_read = read_picture(a, frame->reference, &bytes, &size, reference);
+    free(bytes);
+    return is_read && (strcmp(golden, reference) == 0 || fail_outdated(a, changed));
 }
 
 static bool check_frame(struct approval *a, const struct kiln_result_frame *frame)
 {
-    char picture[KILN_PATH_SIZE], pixels[65];
     /* A frame that fails with KILN_JUDGED_BY_NOTHING fails because its renders differ. */
     if (frame->status == KILN_TEST_FAIL && frame->judged_by == KILN_JUDGED_BY_NOTHING)
         return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: cannot be accepted: %s",
                               a->params->name, frame->message);
-    if (!*frame->picture || strchr(frame->picture, '/'))
+    if (!*frame->picture)
         return kiln_error_set(a->error, KILN_INVALID_INPUT,
-                              "%s/result.json: frame %u has no picture", a->folder, frame->number);
-    if (!has_suffix(&a->file.test, frame->picture))
+                              "%s/%s/result.json: frame %u has no picture", a->place.results,
+                              a->place.name, frame->number);
+    if (!has_suffix(a->test, frame->picture))
         return fail_outdated(a, "the test's format has changed since the run");
-    if (!kiln_path_join(picture, a->folder, frame->picture, a->error) ||
-        !kiln_pixel_hash(picture, pixels, a->error))
-        return false;
-    if (strcmp(pixels, frame->pixels) != 0)
-        return kiln_error_set(
-            a->error, KILN_INVALID_INPUT,
-            "%s: the file is not the picture that was judged: its pixels have changed "
-            "since the run",
-            picture);
-    return check_golden(a, frame);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    char pixels[65];
+    const bool is_judged = read_judged(a, frame, &bytes, &size, pixels);
+    free(bytes);
+    return is_judged && check_golden(a, frame);
 }
 
 static bool check_frames(struct approval *a)
@@ -323,29 +419,48 @@ static void report_change(const struct approval *a, const char *folder, const ch
         a->params->change(a->params->user, line);
 }
 
-static bool accept_frame(struct approval *a, const struct kiln_result_frame *frame)
+/* Writes the picture of a frame, after its bytes are checked once more: they may have changed since
+ * the checks of all frames. */
+static bool write_frame(struct approval *a, const struct kiln_result_frame *frame,
+                        const char *golden, char path[KILN_PATH_SIZE])
 {
-    char path[KILN_PATH_SIZE], picture[KILN_PATH_SIZE];
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    char pixels[65];
+    bool ok = read_judged(a, frame, &bytes, &size, pixels);
     const struct kiln_acceptance acceptance = {.frame = frame->number,
-                                               .picture = picture,
+                                               .bytes = bytes,
+                                               .size = size,
+                                               .pixels = pixels,
                                                .state = frame->state,
                                                .device_name = a->result->device_name,
                                                .as = a->params->as,
-                                               .golden = frame->golden,
+                                               .golden = golden,
                                                .build = a->result->version};
-    const bool hash = a->file.test.golden_form == KILN_GOLDEN_HASH;
+    ok = ok && kiln_goldens_accept(a->arena, a->test, a->expect, &acceptance, path, a->error);
+    free(bytes);
+    return ok;
+}
+
+static bool accept_frame(struct approval *a, const struct kiln_result_frame *frame)
+{
+    char path[KILN_PATH_SIZE];
+    struct kiln_goldens goldens;
+    const bool hash = a->test->golden_form == KILN_GOLDEN_HASH;
     const bool replace = a->params->as == KILN_APPROVE_REPLACE || hash;
-    if (!kiln_path_join(picture, a->folder, frame->picture, a->error))
+    if (!kiln_goldens_find(a->test, frame->number, a->result->device_name, &goldens, a->error))
         return false;
+    const char *golden = find_golden(&goldens, frame);
+    if (!golden && !hash)
+        return fail_outdated(a, "its goldens have changed since the run");
     if (a->params->dry_run && !replace &&
-        !kiln_goldens_place(&a->file.test, frame->number, a->result->device_name, a->params->as,
-                            path, a->error))
+        !kiln_goldens_place(a->test, frame->number, a->result->device_name, a->params->as, path,
+                            a->error))
         return false;
-    if (!a->params->dry_run &&
-        !kiln_goldens_accept(a->arena, &a->file.test, a->expect, &acceptance, path, a->error))
+    if (!a->params->dry_run && !write_frame(a, frame, golden, path))
         return false;
     if (!hash)
-        report_change(a, a->params->dry_run && replace ? frame->golden : path, "");
+        report_change(a, a->params->dry_run && replace ? golden : path, "");
     return true;
 }
 
@@ -353,7 +468,7 @@ static bool accept_frame(struct approval *a, const struct kiln_result_frame *fra
  */
 static bool write_all(struct approval *a)
 {
-    const struct kiln_test *test = &a->file.test;
+    const struct kiln_test *test = a->test;
     for (size_t i = 0; i < a->result->frame_count; i++) {
         if (is_wanted(&a->result->frames[i]) && !accept_frame(a, &a->result->frames[i]))
             return false;
@@ -377,7 +492,7 @@ static bool write_all(struct approval *a)
  */
 static bool approve_locked(struct approval *a)
 {
-    a->expect = kiln_expect_read(a->arena, a->file.test.golden, a->error);
+    a->expect = kiln_expect_read(a->arena, a->test->golden, a->error);
     if (!a->expect || !check_frames(a))
         return false;
     bool scene_known = a->expect->scene_hash && strcmp(a->expect->scene_hash, a->scene_hash) == 0;
@@ -393,9 +508,9 @@ bool kiln_test_approve(const struct kiln_approve_params *params, struct kiln_err
         kiln_arena_destroy(&a.arena);
         return true;
     }
-    ok = ok && read_test(&a) && check_scene(&a);
+    ok = ok && check_test(&a) && check_scene(&a);
     if (ok) {
-        int lock = params->dry_run ? -1 : kiln_goldens_lock(&a.file.test, error);
+        int lock = params->dry_run ? -1 : kiln_goldens_lock(a.test, error);
         ok = (params->dry_run || lock >= 0) && approve_locked(&a);
         kiln_goldens_unlock(lock);
     }

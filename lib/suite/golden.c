@@ -288,37 +288,75 @@ static bool copy_bytes(int from, const char *name, struct kiln_temporary *to,
     }
 }
 
+/* Opens a temporary file for a picture that replaces what is at a path. */
+static bool open_target(struct kiln_temporary *target, const char *path, struct kiln_error *error)
+{
+    if (kiln_path_is_lfs_pointer(path))
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the file is a Git LFS pointer: run git lfs pull", path);
+    return kiln_make_parent_folders(path, error) && kiln_target_check(path, true, error) &&
+           kiln_temporary_open(target, path, error);
+}
+
 bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error)
 {
     struct kiln_temporary target = {0};
     struct stat status;
-    int file = open(from, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    int file = open(from, KILN_FILE_FLAGS);
     bool ok = true;
     if (file < 0 || fstat(file, &status) != 0)
         ok = kiln_error_set_errno(error, KILN_IO, errno, "%s", from);
     else if (!S_ISREG(status.st_mode))
         ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is not a regular file", from);
-    if (ok && kiln_path_is_lfs_pointer(to))
-        ok = kiln_error_set(error, KILN_INVALID_INPUT,
-                            "%s: the file is a Git LFS pointer: run git lfs pull", to);
-    ok = ok && kiln_make_parent_folders(to, error) && kiln_target_check(to, true, error) &&
-         kiln_temporary_open(&target, to, error);
-    if (ok) {
-        ok = copy_bytes(file, from, &target, error);
-        if (ok)
-            ok = kiln_temporary_commit(&target, true, error);
-        else
-            kiln_temporary_discard(&target);
+    if (ok && open_target(&target, to, error)) {
+        ok = copy_bytes(file, from, &target, error) && kiln_temporary_commit(&target, true, error);
+        kiln_temporary_discard(&target);
+    } else {
+        ok = false;
     }
     if (file >= 0)
         close(file);
     return ok;
 }
 
+static bool write_picture(const struct kiln_acceptance *acceptance, const char *path,
+                          struct kiln_error *error)
+{
+    struct kiln_temporary target = {0};
+    if (!open_target(&target, path, error))
+        return false;
+    kiln_temporary_write(&target, acceptance->bytes, acceptance->size); /* commit reports */
+    const bool ok = kiln_temporary_commit(&target, true, error);
+    kiln_temporary_discard(&target);
+    return ok;
+}
+
+static void hash_image(const struct kiln_asset_image *image, char hex[65])
+{
+    static const size_t bytes[] = {[KILN_IMAGE_U8] = 1, [KILN_IMAGE_U16] = 2, [KILN_IMAGE_F32] = 4};
+    size_t size = (size_t)image->width * image->height * 4 * bytes[image->type];
+    char pixels[65], text[160];
+    kiln_hash_sha256(image->pixels, size, pixels);
+    int length =
+        snprintf(text, sizeof text, "%ux%u %u %d %d %d %s", image->width, image->height,
+                 image->channels, (int)image->type, image->srgb, image->premultiplied, pixels);
+    kiln_hash_sha256(text, (size_t)length, hex);
+}
+
+bool kiln_pixel_hash_of(const void *bytes, size_t size, const char *name, char hex[65],
+                        struct kiln_error *error)
+{
+    struct kiln_asset_image *image = kiln_asset_image_parse(bytes, size, name, error);
+    if (!image)
+        return false;
+    hash_image(image, hex);
+    kiln_asset_image_destroy(&image);
+    return true;
+}
+
 bool kiln_pixel_hash_warned(const char *path, const struct kiln_log *log, char hex[65],
                             struct kiln_error *error)
 {
-    static const size_t bytes[] = {[KILN_IMAGE_U8] = 1, [KILN_IMAGE_U16] = 2, [KILN_IMAGE_F32] = 4};
     const struct kiln_loader_params anywhere = {.root = NULL};
     struct kiln_loader *loader = kiln_loader_create(&anywhere);
     if (!loader)
@@ -328,13 +366,7 @@ bool kiln_pixel_hash_warned(const char *path, const struct kiln_log *log, char h
     kiln_loader_destroy(&loader);
     if (!image)
         return false;
-    size_t size = (size_t)image->width * image->height * 4 * bytes[image->type];
-    char pixels[65], text[160];
-    kiln_hash_sha256(image->pixels, size, pixels);
-    int length =
-        snprintf(text, sizeof text, "%ux%u %u %d %d %d %s", image->width, image->height,
-                 image->channels, (int)image->type, image->srgb, image->premultiplied, pixels);
-    kiln_hash_sha256(text, (size_t)length, hex);
+    hash_image(image, hex);
     kiln_asset_image_destroy(&image);
     return true;
 }
@@ -347,13 +379,14 @@ bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
 /* ---- accepting ------------------------------------------------------------------------------ */
 
 static bool put_picture(const struct kiln_acceptance *acceptance, const char *path,
-                        const char *pixel_hash, struct kiln_error *error)
+                        struct kiln_error *error)
 {
     char existing_hash[65];
     struct kiln_error ignored = {0}; /* a file that is missing or broken is replaced */
-    if (kiln_pixel_hash(path, existing_hash, &ignored) && strcmp(existing_hash, pixel_hash) == 0)
+    if (kiln_pixel_hash(path, existing_hash, &ignored) &&
+        strcmp(existing_hash, acceptance->pixels) == 0)
         return true;
-    return kiln_file_copy(acceptance->picture, path, error);
+    return write_picture(acceptance, path, error);
 }
 
 bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
@@ -369,7 +402,7 @@ bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
  * alternative takes the path of a golden of the frame that has the same pixels, if there is one, so
  * that no golden is there twice. */
 static bool choose_path(const struct kiln_test *test, const struct kiln_acceptance *acceptance,
-                        const char *pixel_hash, char path[KILN_PATH_SIZE], struct kiln_error *error)
+                        char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
     const char *device = acceptance->device_name, *place = NULL;
     struct kiln_goldens goldens = {0};
@@ -382,7 +415,7 @@ static bool choose_path(const struct kiln_test *test, const struct kiln_acceptan
         char existing_hash[65];
         struct kiln_error ignored = {0};
         if (kiln_pixel_hash(goldens.paths[i], existing_hash, &ignored) &&
-            strcmp(existing_hash, pixel_hash) == 0)
+            strcmp(existing_hash, acceptance->pixels) == 0)
             place = goldens.paths[i];
     }
     if (!place)
@@ -395,17 +428,14 @@ bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          struct kiln_expect *expect, const struct kiln_acceptance *acceptance,
                          char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
-    char pixel_hash[65];
     const bool hashes_only = test->golden_form == KILN_GOLDEN_HASH;
-    if (!kiln_pixel_hash(acceptance->picture, pixel_hash, error))
-        return false;
-    if (hashes_only ? !kiln_path_join(path, test->golden, "expect.yaml", error)
-                    : !choose_path(test, acceptance, pixel_hash, path, error) ||
-                          !put_picture(acceptance, path, pixel_hash, error))
+    if (hashes_only
+            ? !kiln_path_join(path, test->golden, "expect.yaml", error)
+            : !choose_path(test, acceptance, path, error) || !put_picture(acceptance, path, error))
         return false;
     const struct kiln_expect_pixels accepted = {.device = acceptance->device_name,
-                                                .hash = pixel_hash,
-                                                .golden = hashes_only ? NULL : pixel_hash,
+                                                .hash = acceptance->pixels,
+                                                .golden = hashes_only ? NULL : acceptance->pixels,
                                                 .kiln = acceptance->build};
     return kiln_expect_accept(arena, expect, acceptance->frame, acceptance->state, &accepted) ||
            kiln_error_no_memory(error, "accepting pictures");

@@ -58,19 +58,25 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
  * it is premultiplied, and its pixels. Fails as kiln_asset_image_load does. */
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
+/* Computes it from the bytes of a file; name stands for the file in messages. */
+bool kiln_pixel_hash_of(const void *bytes, size_t size, const char *name, char hex[65],
+                        struct kiln_error *error);
+
 /* Does the same, and warns of what is wrong with a file that is read all the same. */
 bool kiln_pixel_hash_warned(const char *path, const struct kiln_log *log, char hex[65],
                             struct kiln_error *error);
 
-/* Accepts one picture. It is copied to its place, which path receives, unless a picture with the
- * same pixels is there or the test keeps hashes alone; path is then that of expect.yaml. An
- * alternative is not copied if any golden of the frame has its pixels. The state and the hash of
- * the pixels go into expect. The caller holds the lock, and writes expect and the scene afterwards.
- * KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO, KILN_DEVICE_FAILED. */
+/* Accepts one picture, the bytes of a file. They are written to its place, which path receives,
+ * unless a picture with the same pixels is there or the test keeps hashes alone; path is then that
+ * of expect.yaml. An alternative is not written if any golden of the frame has its pixels. The
+ * state and the hash of the pixels go into expect. The caller holds the lock, and writes expect and
+ * the scene afterwards. KILN_IO, KILN_DEVICE_FAILED. */
 struct kiln_acceptance {
     uint32_t frame;
-    const char *picture; /* path of its file */
-    const char *state;   /* NULL: the recorded state stays */
+    const void *bytes; /* of the picture's file */
+    size_t size;
+    const char *pixels; /* kiln_pixel_hash_of the bytes */
+    const char *state;  /* NULL: the recorded state stays */
     const char *device_name;
     enum kiln_approve_as as;
     const char *golden; /* path of the golden to replace; NULL: the frame's first */

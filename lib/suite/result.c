@@ -97,8 +97,8 @@ const struct kiln_member kiln_result_members[] = {
     MEMBER(kiln_result, UINT32, height),
     MEMBER(kiln_result, UINT32, threads),
     MEMBER(kiln_result, UINT32, repeat),
-    MEMBER(kiln_result, TEXT, scene_hash),
-    MEMBER(kiln_result, TEXT, scene_hash_expected),
+    MEMBER(kiln_result, HASH, scene_hash),
+    MEMBER(kiln_result, HASH, scene_hash_expected),
     MEMBER(kiln_result, TEXT, started),
     MEMBER(kiln_result, DOUBLE, total_s),
     MEMBER(kiln_result, DOUBLE, warn),
@@ -126,10 +126,10 @@ const struct kiln_member kiln_result_frame_members[] = {
     MEMBER(kiln_result_frame, FILE, reference),
     MEMBER(kiln_result_frame, FILE, error_map),
     MEMBER(kiln_result_frame, TEXT, golden),
-    MEMBER(kiln_result_frame, TEXT, state),
-    MEMBER(kiln_result_frame, TEXT, state_expected),
-    MEMBER(kiln_result_frame, TEXT, pixels),
-    MEMBER(kiln_result_frame, TEXT, pixels_expected),
+    MEMBER(kiln_result_frame, HASH, state),
+    MEMBER(kiln_result_frame, HASH, state_expected),
+    MEMBER(kiln_result_frame, HASH, pixels),
+    MEMBER(kiln_result_frame, HASH, pixels_expected),
     MEMBER(kiln_result_frame, TEXT, kiln_expected),
     MEMBER(kiln_result_frame, BOOL, measured),
     MEMBERS_END,
@@ -161,7 +161,8 @@ const struct kiln_member kiln_result_change_members[] = {
 static void clear_texts(const struct kiln_member *members, void *object)
 {
     for (const struct kiln_member *m = members; m->name; m++) {
-        if (m->kind == KILN_MEMBER_TEXT || m->kind == KILN_MEMBER_FILE)
+        if (m->kind == KILN_MEMBER_TEXT || m->kind == KILN_MEMBER_FILE ||
+            m->kind == KILN_MEMBER_HASH)
             *(const char **)((char *)object + m->offset) = "";
     }
 }

@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/text.h"
 #include "kiln_program.h"
+#include "suite/result_file.h"
 
 enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 
@@ -78,7 +79,7 @@ struct kiln_result {
     double total_s;
     double warn; /* a frame that passes with a higher score is a warning */
     bool hdr;
-    const char *rerun, *approve; /* the exact commands */
+    const char *rerun, *approve; /* the commands: quoted for a shell, of checked parts */
     size_t column_count;
     struct kiln_compare_column columns[KILN_MAX_COLUMNS];
     size_t frame_count;
@@ -105,9 +106,11 @@ size_t kiln_result_worst_frame(const struct kiln_result *result);
 bool kiln_result_write(const struct kiln_result *result, const char *folder,
                        struct kiln_error *error);
 
-/* Reads FOLDER/result.json; all of it lies in the arena. NULL with KILN_INVALID_INPUT when there is
- * no such file or it is no result, with line and column. */
-struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folder,
+/* Reads result.json of the place; all of it lies in the arena. NULL with KILN_INVALID_INPUT when
+ * there is no such file, when it is no plain file below the folder of results, or when it is no
+ * result of the place's name, with line and column. */
+struct kiln_result *kiln_result_read(struct kiln_arena *arena,
+                                     const struct kiln_result_place *place,
                                      struct kiln_error *error);
 
 /* Reads the text of a result.json, which must end in a zero byte that size does not count; name

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -17,6 +18,7 @@ enum { MAX_FILE_SIZE = 64 << 20 };
 struct reading {
     struct kiln_arena *arena;
     struct kiln_error *error;
+    const char *results; /* the folder of results, or NULL */
 };
 
 /* Refuses a value: "found X; allowed is ...". */
@@ -58,8 +60,19 @@ static bool read_file(const struct reading *reading, const struct kiln_node *nod
 {
     if (!read_text(reading, node, name, text))
         return false;
-    bool leaves = strchr(*text, '/') || strcmp(*text, ".") == 0 || strcmp(*text, "..") == 0;
-    return !leaves || refuse(reading, node, name, "the name of a file in the folder of the result");
+    return !**text || kiln_result_file_is_name(*text) ||
+           refuse(reading, node, name, "the name of a file in the folder of the result");
+}
+
+static bool read_hash(const struct reading *reading, const struct kiln_node *node, const char *name,
+                      const char **text)
+{
+    enum { MOST_DIGITS = 64 };
+    if (!read_text(reading, node, name, text))
+        return false;
+    const size_t digits = strspn(*text, "0123456789abcdef");
+    return ((*text)[digits] == '\0' && digits <= MOST_DIGITS) ||
+           refuse(reading, node, name, "a hash of at most 64 digits of 0 to 9 and a to f");
 }
 
 static bool read_name(const struct reading *reading, const struct kiln_node *node, const char *name,
@@ -141,6 +154,8 @@ static bool read_value(const struct reading *reading, const struct kiln_node *no
         return read_text(reading, node, m->name, value);
     case KILN_MEMBER_FILE:
         return read_file(reading, node, m->name, value);
+    case KILN_MEMBER_HASH:
+        return read_hash(reading, node, m->name, value);
     case KILN_MEMBER_NAME:
         return read_name(reading, node, m->name, value);
     case KILN_MEMBER_UINT32:
@@ -233,6 +248,26 @@ static bool check_code(const struct reading *reading, const struct kiln_node *ro
            refuse(reading, code, "code",
                   good ? "0, because the status is not a failure"
                        : "a number other than 0, because the status is a failure");
+}
+
+/* Checks a command, and replaces it by one that is built anew. A report has it to copy, so whoever
+ * made the result must not choose what a person types into a shell. */
+static bool check_command(const struct reading *reading, const struct kiln_node *root,
+                          const struct kiln_result *result, const char *key, const char **command)
+{
+    if (!**command)
+        return true;
+    *command = kiln_result_command(reading->arena, result, *command, reading->results,
+                                   command == &result->approve);
+    return *command || refuse(reading, kiln_node_entry(root, key), key,
+                              "the command that kiln test writes for this test");
+}
+
+static bool check_commands(const struct reading *reading, const struct kiln_node *root,
+                           struct kiln_result *result)
+{
+    return check_command(reading, root, result, "rerun", &result->rerun) &&
+           check_command(reading, root, result, "approve", &result->approve);
 }
 
 static bool read_columns(const struct reading *reading, const struct kiln_node *root,
@@ -368,38 +403,70 @@ static bool check_version(const struct reading *reading, const struct kiln_node 
            refuse(reading, version, "kiln_result", "2, which this version of kiln writes");
 }
 
-struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text, size_t size,
-                                      const char *name, struct kiln_error *error)
+static struct kiln_result *parse(const struct reading *reading, const char *text, size_t size,
+                                 const char *name)
 {
-    const struct reading reading = {arena, error};
-    struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
-    struct kiln_result *result = kiln_arena_alloc(arena, 1, sizeof *result);
+    struct kiln_origin *origin = kiln_arena_alloc(reading->arena, 1, sizeof *origin);
+    struct kiln_result *result = kiln_arena_alloc(reading->arena, 1, sizeof *result);
     if (!origin || !result) {
-        kiln_error_no_memory(error, "reading a result");
+        kiln_error_no_memory(reading->error, "reading a result");
         return NULL;
     }
     *origin = (struct kiln_origin){.name = name, .has_lines = true, .kind = "a result"};
-    const struct kiln_node *root = kiln_node_parse(arena, text, size, origin, error);
+    const struct kiln_node *root =
+        kiln_node_parse(reading->arena, text, size, origin, reading->error);
     uint32_t count = 5; /* the version and the four lists */
-    bool ok = root && check_version(&reading, root) &&
-              read_members(&reading, root, kiln_result_members, result, &count) &&
-              check_code(&reading, root, result) && read_columns(&reading, root, result) &&
-              read_frames(&reading, root, result) && read_changes(&reading, root, result) &&
-              read_notes(&reading, root, result) && check_count(&reading, root, count);
+    bool ok = root && check_version(reading, root) &&
+              read_members(reading, root, kiln_result_members, result, &count) &&
+              check_code(reading, root, result) && check_commands(reading, root, result) &&
+              read_columns(reading, root, result) && read_frames(reading, root, result) &&
+              read_changes(reading, root, result) && read_notes(reading, root, result) &&
+              check_count(reading, root, count);
     return ok ? result : NULL;
 }
 
-struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folder,
+struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text, size_t size,
+                                      const char *name, struct kiln_error *error)
+{
+    return parse(&(struct reading){arena, error, NULL}, text, size, name);
+}
+
+/* Refuses the result of another test, which was moved here. */
+static bool check_name(const struct kiln_result *result, const struct kiln_result_place *place,
+                       const char *path, struct kiln_error *error)
+{
+    char found[64], expected[64];
+    if (strcmp(result->name, place->name) == 0)
+        return true;
+    kiln_node_quote(found, result->name);
+    kiln_node_quote(expected, place->name);
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: the file has the result of '%s', but that of '%s' is expected", path,
+                          found, expected);
+}
+
+struct kiln_result *kiln_result_read(struct kiln_arena *arena,
+                                     const struct kiln_result_place *place,
                                      struct kiln_error *error)
 {
+    const struct kiln_result_file file = {.name = "result.json",
+                                          .what = "result of a test",
+                                          .allowed = "JSON",
+                                          .limit = MAX_FILE_SIZE};
     char path[KILN_PATH_SIZE];
-    if (!kiln_path_join(path, folder, "result.json", error))
-        return NULL;
     size_t size = 0;
-    char *text = kiln_text_file_read(path, "the result of a test", MAX_FILE_SIZE, &size, error);
+    const int opened = kiln_result_file_open(place, &file, path, &size, error);
+    if (opened < 0 && error->code == KILN_IO)
+        error->code = KILN_INVALID_INPUT;
+    char *text = opened < 0 ? NULL
+                            : kiln_text_file_take(opened, path, "the result of a test",
+                                                  MAX_FILE_SIZE, &size, NULL, error);
+    if (opened >= 0)
+        close(opened);
     if (!text)
         return NULL;
-    struct kiln_result *result = kiln_result_parse(arena, text, size, path, error);
+    const struct reading reading = {arena, error, place->results};
+    struct kiln_result *result = parse(&reading, text, size, path);
     free(text);
-    return result;
+    return result && check_name(result, place, path, error) ? result : NULL;
 }

@@ -14,6 +14,7 @@ void kiln_member_write(struct kiln_json *json, const char *key, const struct kil
     switch (member->kind) {
     case KILN_MEMBER_TEXT:
     case KILN_MEMBER_FILE:
+    case KILN_MEMBER_HASH:
         kiln_json_string(json, key, *(const char *const *)value);
         break;
     case KILN_MEMBER_NAME:

@@ -353,10 +353,15 @@ static bool list_file(struct folder *f, const char *path, const char *from_root,
 
 /* ---- A run ----------------------------------------------------------------------------------- */
 
-/* Checks that results do not go into a folder of goldens, whose pictures have the same names. */
-static bool check_goldens(const struct folder *f)
+/* Checks that results do not go into a folder of goldens, whose pictures have the same names, nor
+ * by a link into another folder. */
+static bool check_folders(const struct folder *f)
 {
     for (size_t i = 0; i < f->suite->count; i++) {
+        const struct kiln_result_place place = {f->suite->results_folder,
+                                                f->suite->tests[i].full_name};
+        if (!kiln_result_folder_check(&place, f->error))
+            return false;
         char folder[KILN_PATH_SIZE], path[KILN_PATH_SIZE];
         if (!kiln_path_join(folder, f->suite->results_folder, f->suite->tests[i].full_name,
                             f->error) ||
@@ -386,7 +391,7 @@ static bool list_writing(struct folder *f)
 
 static bool begin(struct folder *f)
 {
-    if (!check_goldens(f) || !open_list(f) || !visit_all(f, choose_removed))
+    if (!check_folders(f) || !open_list(f) || !visit_all(f, choose_removed))
         return false;
     sort(&f->removed);
     return list_writing(f) && write_list(f) && remove_chosen(f);

@@ -317,6 +317,7 @@ static bool load(struct kiln_suite *suite, const struct kiln_suite_params *param
     suite->results_folder = tidy_folder(suite->arena, params->results);
     tidied.golden = tidy_folder(suite->arena, params->golden);
     tidied.results = suite->results_folder;
+    suite->is_found_by_name = params->path_count == 1 && strcmp(params->paths[0], ".") == 0;
     if (!tidied.golden || !tidied.results)
         return out_of_memory(&loader);
     if (!check_folders(&tidied, error) || !read_files(&loader))

@@ -61,6 +61,7 @@ struct kiln_suite {
     const char **unused; /* folders of goldens that no test uses */
     size_t unused_count, unused_capacity;
     char *results_folder;
+    bool is_found_by_name; /* the working directory alone was searched, as by default */
 };
 
 #endif

@@ -105,7 +105,8 @@ bool kiln_test_read_summary(const struct kiln_suite *suite, size_t index,
 {
     const struct kiln_test *test = &suite->tests[index];
     struct kiln_arena *arena = kiln_arena_create();
-    const struct kiln_result *result = arena ? kiln_result_read(arena, test->results, error) : NULL;
+    const struct kiln_result_place place = {suite->results_folder, test->full_name};
+    const struct kiln_result *result = arena ? kiln_result_read(arena, &place, error) : NULL;
     if (!arena)
         kiln_error_no_memory(error, "%s", test->path);
     if (result)
@@ -119,7 +120,8 @@ bool kiln_test_read_note(const struct kiln_suite *suite, size_t index, uint32_t 
 {
     const struct kiln_test *test = &suite->tests[index];
     struct kiln_arena *arena = kiln_arena_create();
-    const struct kiln_result *result = arena ? kiln_result_read(arena, test->results, error) : NULL;
+    const struct kiln_result_place place = {suite->results_folder, test->full_name};
+    const struct kiln_result *result = arena ? kiln_result_read(arena, &place, error) : NULL;
     if (!arena)
         kiln_error_no_memory(error, "%s", test->path);
     bool ok = result && note < result->note_count;

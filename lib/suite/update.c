@@ -7,9 +7,11 @@
  * that lock. Of what was read, only the accepted scene and this device's entries of the frames in
  * question change. Nothing here may be written from the expect.yaml that the test case read before.
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "suite/result_file.h"
 #include "suite/test_case.h"
 
 /* The ways in which an update treats a frame. */
@@ -84,12 +86,38 @@ static bool announce(struct kiln_test_case *test_case, size_t index, enum action
 
 /* ---- An update -------------------------------------------------------------------------- */
 
+static bool accept_picture(struct kiln_test_case *test_case, size_t index,
+                           char path[KILN_PATH_SIZE], struct kiln_error *error)
+{
+    const struct kiln_result_frame *frame = &test_case->result->frames[index];
+    const struct kiln_result_place place = {test_case->suite->results_folder,
+                                            test_case->test->full_name};
+    char pixels[65];
+    size_t size = 0;
+    unsigned char *bytes = kiln_result_picture_read(&place, frame->picture, &size, error);
+    const struct kiln_acceptance acceptance = {
+        .frame = frame->number,
+        .bytes = bytes,
+        .size = size,
+        .pixels = pixels,
+        .state = frame->state,
+        .device_name = test_case->rendering.device_name,
+        .as = KILN_APPROVE_REPLACE,
+        .build = test_case->result->version,
+        .golden = test_case->frames[index].has_golden ? frame->golden : NULL};
+    const bool ok = bytes && kiln_pixel_hash_of(bytes, size, frame->picture, pixels, error) &&
+                    kiln_goldens_accept(test_case->arena, test_case->test, test_case->expect,
+                                        &acceptance, path, error);
+    free(bytes);
+    return ok;
+}
+
 static bool accept(struct kiln_test_case *test_case, size_t index, enum action action,
                    struct kiln_error *error)
 {
     struct kiln_result_frame *frame = &test_case->result->frames[index];
     const char *device = test_case->rendering.device_name;
-    char path[KILN_PATH_SIZE], picture[KILN_PATH_SIZE];
+    char path[KILN_PATH_SIZE];
     if (action == ACCEPT_HASHES) {
         const bool hash = test_case->test->golden_form == KILN_GOLDEN_HASH;
         const struct kiln_expect_pixels pixels = {
@@ -104,18 +132,7 @@ static bool accept(struct kiln_test_case *test_case, size_t index, enum action a
         kiln_test_case_note(test_case, "accepted the hashes of frame %u on %s", frame->number,
                             device);
     } else {
-        if (!kiln_test_case_path(test_case, frame->picture, picture, error))
-            return false;
-        const struct kiln_acceptance acceptance = {
-            .frame = frame->number,
-            .picture = picture,
-            .state = frame->state,
-            .device_name = device,
-            .as = KILN_APPROVE_REPLACE,
-            .build = test_case->result->version,
-            .golden = test_case->frames[index].has_golden ? frame->golden : NULL};
-        if (!kiln_goldens_accept(test_case->arena, test_case->test, test_case->expect, &acceptance,
-                                 path, error))
+        if (!accept_picture(test_case, index, path, error))
             return false;
         kiln_test_case_note(test_case, "wrote %s", path);
     }

@@ -59,7 +59,7 @@ static void a_missing_golden_is_new_and_nothing_is_written(void **state)
     assert_int_equal(access("out/test/spark/frame_0005.png", R_OK), 0);
     assert_int_equal(access("golden", F_OK), -1);
     assert_string_equal(run.result->rerun, "kiln test spark.test.yaml");
-    assert_string_equal(run.result->approve, "kiln test approve spark");
+    assert_string_equal(run.result->approve, "kiln test approve spark.test.yaml");
     assert_string_equal(run.result->techniques,
                         "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_int_equal(run.result->seed, 7);

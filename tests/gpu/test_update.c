@@ -438,7 +438,8 @@ static void crashes_are_recorded(void **state)
     struct kiln_error error = {0};
     assert_false(kiln_test_read_summary(suite, 0, &summary, &error));
     expect_error(&error, KILN_INVALID_INPUT,
-                 "out/test/spark/result.json: No such file or directory");
+                 "out/test/spark/result.json: the result of a test cannot be opened: No such file "
+                 "or directory");
     assert_true(
         kiln_test_record_error(suite, 0, KILN_DEVICE_FAILED, "crashed: signal 11", 2.5, &error));
     assert_true(kiln_test_read_summary(suite, 0, &summary, &error));

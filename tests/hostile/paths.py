@@ -36,12 +36,12 @@ def rows():
         smoke = label in ("absolute", "up", "escapes")
         found.append(asset("paths", use, label, name, None, smoke=smoke))
 
-    def special(label, use, make_file, name="a.png", codes=REFUSED, smoke=False):
+    def special(label, use, make_file, name="a.png", codes=REFUSED, smoke=False, says=""):
         def make(root):
             make_file(root)
             scene(root, use, name)
             return check()
-        found.append(Row("paths", f"{use} {label}", make, codes, smoke=smoke))
+        found.append(Row("paths", f"{use} {label}", make, codes, smoke=smoke, says=says))
 
     def symlink(target, name="a.png"):
         def make(root):
@@ -49,12 +49,20 @@ def rows():
             os.symlink(target, root / name)
         return make
 
-    special("link out", "atlas", symlink("../secret.txt"), smoke=True)
-    special("absolute link out", "floor", symlink("/etc/passwd"))
+    # One text, whether or not something is where the link leads.
+    outside = "'a.png' leads outside the asset root"
+    special("link out", "atlas", symlink("../secret.txt"), smoke=True, says=outside)
+    special("link to nothing outside", "atlas", symlink("../nothing.txt"), smoke=True, says=outside)
+    special("absolute link out", "floor", symlink("/etc/passwd"), says=outside)
+    special("absolute link to nothing", "floor", symlink("/etc/nothing"), says=outside)
+    special("link below a file outside", "floor", symlink("/etc/passwd/a"), says=outside)
+    special("link to what only root may see", "floor", symlink("/root/a/b"), says=outside)
     special("link to proc", "sky", symlink("/proc/self/environ"))
     special("link to a device", "atlas", symlink("/dev/zero"))
     special("link to itself", "atlas", symlink("a.png"))
-    special("linked folder", "mesh", symlink("..", "up"), "up/secret.txt")
+    special("linked folder", "mesh", symlink("..", "up"), "up/secret.txt", says="leads outside the asset root")
+    special("linked folder to nothing", "mesh", symlink("..", "up"), "up/nothing.txt",
+            says="leads outside the asset root")
     special("link of a wind", "wind", symlink("../secret.txt", "a.grid"), "a.grid")
     special("link of a mesh", "mesh", symlink("../secret.txt", "a.obj"), "a.obj")
     special("FIFO", "atlas", lambda root: os.mkfifo(root / "a.png"), smoke=True)

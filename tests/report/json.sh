@@ -39,5 +39,5 @@ expect bad '.tests[] | select(.name == "fail/metrics") | [.folder, .score, .fram
     '["out/fail/metrics",2,["flip.mean"]]'
 expect good '.tests[0].frames[1].metrics.psnr' null # infinite
 expect bad '.tests[] | select(.name == "lost") | [.code, .test]' '[5,"tests/lost.test.yaml"]'
-expect bad '.tests[0].name == "a&b<c>\"d'\''#e\\f%g:h,i]]>j{k}\u0001\u001b[31m\nl\tm\r\u00e9\ufffe"' \
+expect bad '.tests[0].message == "a&b<c>\"d'\''#e\\f%g:h,i]]>j{k}\u0001\u001b[31m\nl\tm\r\u00e9\ufffe"' \
     true

@@ -49,8 +49,9 @@ types = {s.name: r.type for s in report for c in s for r in c.result if not isin
 if "new" in types:
     assert types["new"] == "golden-missing" and types["fail/state"] == "simulation-changed", types
     assert types["fail/metrics"] == "picture-differs" and types["broken"] == "invalid-input", types
-    # XML cannot hold control characters, so they are left out; the rest of a name is unchanged.
-    assert "a&b<c>\"d'#e\\f%g:h,i]]>j{k}[31m\nl\tm\ré" in types, list(types)
+    # XML cannot hold control characters, which become U+FFFD; the rest of a text is unchanged.
+    messages = [r.message for s in report for c in s for r in c.result]
+    assert "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\ufffd\ufffd[31m\nl\tm\ré\ufffd" in messages, messages
 smoke = next(s for s in report if s.name == "effects/smoke")
 assert {p.name: p.value for p in smoke.properties()}["flip.mean"] == "0.008123 (at most 0.01)"
 assert abs(smoke.time - 1.25) < 1e-9 and smoke.timestamp == "2026-01-31T12:00:00"

@@ -309,7 +309,7 @@ test("says what is known of a test", async () => {
     const facts = await text(page, "#facts");
     for (const part of ["flip.mean", "\u2264 0.01", "beyond", "psnr", "dB", "judged by the state hash", "Seed",
         "as accepted", "accepted: ", "log.txt", "Mesa", "golden/effects/fire_beam/frame_0089.png",
-        "systems.fire.emit.rate", "380 1/s", "kiln test approve effects/fire_beam"])
+        "systems.fire.emit.rate", "380 1/s", "kiln test approve tests/effects/fire_beam.test.yaml"])
         assert.ok(facts.includes(part), `${part} is not in ${facts}`);
     assert.match(facts, /State\n[0-9a-f]{16} accepted: [0-9a-f]{16}/);
     assert.equal(await page.locator("tr.beyond").count(), 3);

@@ -4,12 +4,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "base/file.h"
+#include "base/temporary.h"
 #include "suite/suite.h"
 
-/* A test's name with characters that would end a string, line, element, comment or command in a
- * format of reports, if the report did not escape them. */
-#define TEST_NASTY_NAME "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\x01\x1b[31m\nl\tm\r\xc3\xa9\xef\xbf\xbe"
+/* A text with characters that would end a string, line, element, comment or command in a format of
+ * reports, if the report did not escape them. */
+#define TEST_NASTY_TEXT "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\x01\x1b[31m\nl\tm\r\xc3\xa9\xef\xbf\xbe"
 
 enum { TEST_RESULT_COUNT = 9, TEST_COLUMN_COUNT = 3 };
 
@@ -101,7 +104,7 @@ static void test_fill_bad(struct test_results *all)
     test_frame(result, 24, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, -1);
     test_frame(result, 96, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS, 0.03125)->message =
         "flip.mean 0.03125 > 0.01";
-    result->rerun = "kiln test fail/metrics";
+    result->rerun = "kiln test tests/scene.test.yaml";
     result->approve = "kiln test approve fail/metrics";
 
     result = test_result(all, 4, "fail/state", KILN_TEST_FAIL, "the simulation changed");
@@ -121,7 +124,7 @@ static void test_fill_bad(struct test_results *all)
     result = test_result(all, 6, "broken", KILN_TEST_ERROR, "x.yaml:1:1: unknown key 'a'");
     result->log = "log.txt";
 
-    test_result(all, 7, TEST_NASTY_NAME, KILN_TEST_ERROR, TEST_NASTY_NAME);
+    test_result(all, 7, "a-b_c.d\xc3\xa9", KILN_TEST_ERROR, TEST_NASTY_TEXT);
 
     result = test_result(all, 8, "effects/torch", KILN_TEST_CHANGE,
                          "frame 24: the renderer changed, from kiln 0.2.0 (1234567) to kiln 0.2.0; "
@@ -136,6 +139,27 @@ static void test_fill_bad(struct test_results *all)
     };
     for (size_t i = 3; i < TEST_RESULT_COUNT; i++)
         all->results[i].code = codes[i];
+}
+
+/* Writes a file of a result, since reports name only files that are there. */
+static bool write_file(const char *folder, const char *name, struct kiln_error *error)
+{
+    char path[KILN_PATH_SIZE];
+    return !*name || (kiln_path_join(path, folder, name, error) &&
+                      kiln_temporary_write_file(path, "a file", strlen("a file"), error));
+}
+
+static bool write_files(const char *folder, const struct kiln_result *result,
+                        struct kiln_error *error)
+{
+    bool ok = write_file(folder, result->log, error);
+    for (size_t i = 0; ok && i < result->frame_count; i++) {
+        const struct kiln_result_frame *frame = &result->frames[i];
+        ok = write_file(folder, frame->picture, error) &&
+             write_file(folder, frame->reference, error) &&
+             write_file(folder, frame->error_map, error);
+    }
+    return ok;
 }
 
 bool test_write_run(const char *folder, bool good, struct kiln_error *error)
@@ -162,7 +186,8 @@ bool test_write_run(const char *folder, bool good, struct kiln_error *error)
     for (size_t i = 0; i < count; i++) {
         char path[KILN_PATH_SIZE];
         snprintf(path, sizeof path, "%s/%s", folder, all.results[i].name);
-        if (!kiln_result_write(&all.results[i], path, error))
+        if (!write_files(path, &all.results[i], error) ||
+            !kiln_result_write(&all.results[i], path, error))
             return false;
     }
     return kiln_suite_write_run(&suite, 12.3456, error);

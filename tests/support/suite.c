@@ -67,7 +67,8 @@ struct spark_run spark_run(const struct kiln_test_params *params)
              kiln_test_run(run.suite, 0, params ? params : &usual, &run.summary, &run.error);
     if (!run.ok)
         return run;
-    run.result = kiln_result_read(run.arena, "out/test/spark", &run.error);
+    const struct kiln_result_place place = {"out/test", "spark"};
+    run.result = kiln_result_read(run.arena, &place, &run.error);
     if (!run.result)
         fail_msg("%s", run.error.message);
     assert_int_equal(run.result->status, run.summary.status);

@@ -18,7 +18,7 @@ done
 headers=$(find "$prefix/include" -type f | wc -l)
 [[ $headers == 5 ]] || { echo "$headers headers are installed; the library has five"; exit 1; }
 for file in kiln/scenes/fire_beam.yaml kiln/scene.schema.json man/man1/kiln.1 man/man5/kiln-scene.5 \
-    bash-completion/completions/kiln zsh/site-functions/_kiln; do
+    bash-completion/completions/kiln zsh/site-functions/_kiln fish/vendor_completions.d/kiln.fish; do
     [[ -f $prefix/share/$file ]] || { echo "share/$file is not installed"; exit 1; }
 done
 DESTDIR=$prefix/package cmake --install "$build" --prefix /usr >/dev/null
@@ -131,3 +131,4 @@ found=$(man -M "$prefix/share/man" -w 5 kiln-scene)
 [[ $found == "$prefix/share/man/man5/kiln-scene.5" ]] || { echo "man finds kiln-scene in '$found'"; exit 1; }
 "$tests/completion/press_tab.py" bash "$prefix/bin/kiln" "$prefix/share/bash-completion/completions/kiln"
 "$tests/completion/press_tab.py" zsh "$prefix/bin/kiln" "$prefix/share/zsh/site-functions/_kiln"
+"$tests/completion/press_tab.py" fish "$prefix/bin/kiln" "$prefix/share/fish/vendor_completions.d/kiln.fish"

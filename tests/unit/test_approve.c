@@ -8,6 +8,7 @@
 
 #include "scene/work.h"
 #include "suite/golden.h"
+#include "suite/suite.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
 #include "support/folders.h"
@@ -118,17 +119,35 @@ static void note(void *user, const char *line)
     snprintf(lines + length, 1024 - length, "%s\n", line);
 }
 
+/* The suite of fire.test.yaml, with its goldens in golden and these results. */
+static struct kiln_suite *load_suite(const char *results)
+{
+    static const char *const paths[] = {"fire.test.yaml"};
+    struct kiln_suite_params params = kiln_suite_defaults();
+    struct kiln_error error = {0};
+    params.paths = paths;
+    params.path_count = 1;
+    params.results = results;
+    struct kiln_suite *suite = kiln_suite_load(&params, &error);
+    if (!suite)
+        fail_msg("%s", error.message);
+    return suite;
+}
+
 static bool approve(enum kiln_approve_as as, bool dry_run, char lines[1024],
                     struct kiln_error *error)
 {
     *lines = '\0';
-    const struct kiln_approve_params params = {.results = "out/test",
+    struct kiln_suite *suite = load_suite("out/test");
+    const struct kiln_approve_params params = {.suite = suite,
                                                .name = "fire",
                                                .as = as,
                                                .dry_run = dry_run,
                                                .change = note,
                                                .user = lines};
-    return kiln_test_approve(&params, error);
+    const bool ok = kiln_test_approve(&params, error);
+    kiln_suite_destroy(&suite);
+    return ok;
 }
 
 static void expect_lines(enum kiln_approve_as as, bool dry_run, const char *expected)
@@ -275,22 +294,66 @@ static void names_are_of_results(void **state)
     (void)state;
     make_run();
     struct kiln_error error = {0};
-    struct kiln_approve_params params = {.results = "out/test", .name = "fier"};
+    struct kiln_suite *suite = load_suite("out/test");
+    struct kiln_approve_params params = {.suite = suite, .name = "fier"};
     assert_false(kiln_test_approve(&params, &error));
     expect_error(&error, KILN_USAGE,
                  "no result of a test 'fier' in out/test (did you mean 'fire'?)");
     params.name = "../test/fire";
     assert_false(kiln_test_approve(&params, &error));
     expect_error(&error, KILN_USAGE, "no result of a test '../test/fire' in out/test");
-    params.results = "gone";
-    assert_false(kiln_test_approve(&params, &error));
-    expect_error(&error, KILN_USAGE, "no result of a test '../test/fire' in gone");
 
     test_write_file("out/test/fire/result.json", "{\n");
-    params = (struct kiln_approve_params){.results = "out/test", .name = "fire"};
+    params.name = "fire";
     assert_false(kiln_test_approve(&params, &error));
     expect_error_around(&error, KILN_INVALID_INPUT, "",
                         "out/test/fire/result.json:2:1: not valid YAML: "); /* libfyaml says why */
+    kiln_suite_destroy(&suite);
+
+    suite = load_suite("gone");
+    params = (struct kiln_approve_params){.suite = suite, .name = "fire"};
+    assert_false(kiln_test_approve(&params, &error));
+    expect_error(&error, KILN_USAGE, "no result of a test 'fire' in gone");
+    kiln_suite_destroy(&suite);
+}
+
+/* The result is foreign: the suite alone says what the test is and where its goldens are. */
+static void results_of_other_places_are_refused(void **state)
+{
+    (void)state;
+    struct run *run = make_run();
+    run->result.golden = "elsewhere/fire";
+    run->frames[0].golden = "elsewhere/fire/frame_0001.png";
+    write_result(run);
+    expect_refusal("fire: the result names the goldens 'elsewhere/fire', but the test has "
+                   "'golden/fire': approve where the test was run, with the same --golden",
+                   KILN_INVALID_INPUT);
+    run->result.golden = "golden/fire";
+    run->result.test = "other/fire.test.yaml";
+    run->result.rerun = "";
+    write_result(run);
+    expect_refusal("fire: the result names the file 'other/fire.test.yaml', but the test has "
+                   "'fire.test.yaml': approve where the test was run",
+                   KILN_INVALID_INPUT);
+    run->result.test = "./fire.test.yaml";
+    run->result.golden = "golden//./fire";
+    run->frames[0].golden = "./golden/fire/frame_0001.png";
+    write_result(run);
+    expect_lines(KILN_APPROVE_REPLACE, true,
+                 "would write golden/fire/frame_0001.png\n"
+                 "would write golden/fire/frame_0003.png\n"
+                 "would write golden/fire/scene.yaml\n"
+                 "would write golden/fire/expect.yaml\n");
+    run->result.name = "smoke";
+    write_result(run);
+    struct kiln_suite *suite = load_suite("out/test");
+    const struct kiln_approve_params params = {.suite = suite, .name = "smoke"};
+    struct kiln_error error = {0};
+    assert_false(kiln_test_approve(&params, &error));
+    expect_error(&error, KILN_USAGE,
+                 "smoke: there is a result, but no such test where tests are looked for; give the "
+                 "test's file or folder, too: kiln test approve smoke FILE");
+    kiln_suite_destroy(&suite);
 }
 
 static void what_has_changed_since_is_refused(void **state)
@@ -381,8 +444,8 @@ static void results_without_a_verdict_are_refused(void **state)
     run = make_run();
     run->result.golden = "golden/smoke";
     write_result(run);
-    expect_refusal("out/test/fire/result.json: the result belongs to another test: it names "
-                   "'fire', with goldens in golden/smoke",
+    expect_refusal("fire: the result names the goldens 'golden/smoke', but the test has "
+                   "'golden/fire': approve where the test was run, with the same --golden",
                    KILN_INVALID_INPUT);
     run->result.golden = "golden/fire";
     run->result.device_name = "llvmpipe (LLVM)";
@@ -401,6 +464,7 @@ int main(void)
         IN_FOLDER(pictures_are_accepted_for_a_device),
         IN_FOLDER(nothing_is_done_where_all_passes),
         IN_FOLDER(names_are_of_results),
+        IN_FOLDER(results_of_other_places_are_refused),
         IN_FOLDER(what_has_changed_since_is_refused),
         IN_FOLDER(results_without_a_verdict_are_refused),
     };

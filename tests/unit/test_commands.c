@@ -3,6 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "suite/result_member.h"
 #include "suite/test_case.h"
 #include "support/cmocka.h"
 
@@ -61,11 +62,23 @@ static void what_was_asked_for_is_asked_for_again(void **state)
     f.params.technique_count = 1;
     f.params.repeat = 3;
     f.params.strict = f.params.ignore_hashes = true;
-    assert_string_equal(kiln_test_case_rerun_command(&f.test_case),
-                        "kiln test --golden 'my goldens' --results r --device 'nvidia h200' "
+    const char *rerun = kiln_test_case_rerun_command(&f.test_case);
+    assert_string_equal(rerun,
+                        "kiln test --results r --golden 'my goldens' --device 'nvidia h200' "
                         "--technique sort=cpu --repeat 3 --ignore-hashes --strict fire.yaml");
+    const char *approve = kiln_test_case_approve_command(&f.test_case);
+    assert_string_equal(approve, "kiln test approve --results r --golden 'my goldens' fire.yaml");
+    f.suite.is_found_by_name = true;
     assert_string_equal(kiln_test_case_approve_command(&f.test_case),
-                        "kiln test approve --results r fire");
+                        "kiln test approve --results r --golden 'my goldens' fire");
+    /* What is written is what the reader of results takes. */
+    struct kiln_result result;
+    kiln_result_init(&result, "fire");
+    result.test = "fire.yaml";
+    result.golden = "my goldens/fire";
+    struct kiln_arena *arena = f.test_case.arena;
+    assert_string_equal(kiln_result_command(arena, &result, rerun, "r", false), rerun);
+    assert_string_equal(kiln_result_command(arena, &result, approve, "r", true), approve);
     f.test.device = "software"; /* is in the test file */
     assert_null(strstr(kiln_test_case_rerun_command(&f.test_case), "--device"));
     kiln_arena_destroy(&f.test_case.arena);

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include "base/file_in.h"
 #include "suite/golden.h"
 #include "support/cmocka.h"
 #include "support/errors.h"
@@ -305,11 +306,26 @@ static void the_lock_lets_one_in(void **state)
 
 /* ---- Accepting ---------------------------------------------------------------------------- */
 
+/* Reads a picture for an acceptance. The caller frees its bytes. */
+static unsigned char *read_picture(const char *picture, char pixels[65], size_t *size)
+{
+    struct kiln_error error = {0};
+    unsigned char *bytes = kiln_file_read(picture, "image", "PNG", SIZE_MAX, size, &error);
+    if (!bytes || !kiln_pixel_hash_of(bytes, *size, picture, pixels, &error))
+        fail_msg("%s", error.message);
+    return bytes;
+}
+
 static void accept(struct kiln_arena *arena, struct kiln_expect *expect, const char *picture,
                    enum kiln_approve_as as, const char *place)
 {
+    char pixels[65];
+    size_t size = 0;
+    unsigned char *bytes = read_picture(picture, pixels, &size);
     const struct kiln_acceptance acceptance = {.frame = 24,
-                                               .picture = picture,
+                                               .bytes = bytes,
+                                               .size = size,
+                                               .pixels = pixels,
                                                .state = "13e7be772847a38f",
                                                .device_name = llvmpipe,
                                                .as = as};
@@ -317,6 +333,7 @@ static void accept(struct kiln_arena *arena, struct kiln_expect *expect, const c
     struct kiln_error error = {0};
     if (!kiln_goldens_accept(arena, &fire, expect, &acceptance, path, &error))
         fail_msg("%s", error.message);
+    free(bytes);
     assert_string_equal(path, place);
     expect_hashes(picture, place, true);
     char hex[65];
@@ -350,10 +367,15 @@ static void accepted_pictures_are_found(void **state)
     /* One whose pixels are there is not written again; a broken one is. */
     struct stat before, after;
     assert_int_equal(stat("golden/fire/frame_0024.png", &before), 0);
-    struct kiln_acceptance same = {.frame = 24,
-                                   .picture = "new_01.png",
-                                   .device_name = llvmpipe,
-                                   .golden = "golden/fire/frame_0024.png"};
+    char pixels[65];
+    size_t size = 0;
+    unsigned char *bytes = read_picture("new_01.png", pixels, &size);
+    const struct kiln_acceptance same = {.frame = 24,
+                                         .bytes = bytes,
+                                         .size = size,
+                                         .pixels = pixels,
+                                         .device_name = llvmpipe,
+                                         .golden = "golden/fire/frame_0024.png"};
     char path[KILN_PATH_SIZE];
     assert_true(kiln_goldens_accept(arena, &fire, expect, &same, path, &error));
     assert_int_equal(stat("golden/fire/frame_0024.png", &after), 0);
@@ -362,12 +384,11 @@ static void accepted_pictures_are_found(void **state)
     assert_true(kiln_goldens_accept(arena, &fire, expect, &same, path, &error));
     expect_hashes("golden/fire/frame_0024.png", "new_01.png", true);
 
-    test_write_file("broken.png", "no picture");
-    same.picture = "broken.png";
-    assert_false(kiln_goldens_accept(arena, &fire, expect, &same, path, &error));
+    assert_false(kiln_pixel_hash_of("no picture", 10, "broken.png", pixels, &error));
     expect_error(&error, KILN_INVALID_INPUT,
                  "broken.png: the file is not an image: it starts with the bytes 6e 6f 20 70; "
                  "allowed are PNG, JPEG, WebP, TIFF, BMP, GIF, EXR or HDR files");
+    free(bytes);
     expect_hashes("golden/fire/frame_0024.png", "new_01.png", true);
     kiln_arena_destroy(&arena);
 }

@@ -26,11 +26,15 @@ static void fill(const struct kiln_member *members, void *object, uint32_t *next
         void *value = (char *)object + m->offset;
         uint32_t number = ++*next;
         char text[256];
-        snprintf(text, sizeof text, m->kind == KILN_MEMBER_TEXT ? "%u %s" : "%u_%.0s", number,
-                 nasty);
+        snprintf(text, sizeof text,
+                 m->kind == KILN_MEMBER_TEXT   ? "%u %s"
+                 : m->kind == KILN_MEMBER_FILE ? "%u_%.0s"
+                                               : "%u%.0s",
+                 number, nasty);
         switch (m->kind) {
         case KILN_MEMBER_TEXT:
         case KILN_MEMBER_FILE:
+        case KILN_MEMBER_HASH:
             *(const char **)value = kiln_arena_text(arena, text, strlen(text));
             break;
         case KILN_MEMBER_NAME:
@@ -67,6 +71,7 @@ static void assert_member(const struct kiln_member *m, const char *a_object, con
     switch (m->kind) {
     case KILN_MEMBER_TEXT:
     case KILN_MEMBER_FILE:
+    case KILN_MEMBER_HASH:
         assert_string_equal(*(const char *const *)a, *(const char *const *)b);
         break;
     case KILN_MEMBER_NAME:
@@ -91,13 +96,30 @@ static void assert_members(const struct kiln_member *members, const void *a, con
 
 enum { COLUMNS = 13 };
 
-/* A result of so many frames, of which every second is measured. */
-static struct kiln_result full_result(struct kiln_arena *arena, uint32_t frames)
+/* Returns a command with a word, quoted, after the folder of results. */
+static const char *command_of(struct kiln_arena *arena, const char *start, const char *results,
+                              const char *word)
+{
+    struct kiln_text text = {0};
+    kiln_text_add(&text, "%s --results %s ", start, results);
+    kiln_text_add_shell_word(&text, word);
+    const char *command = kiln_arena_text(arena, text.data, text.length);
+    kiln_text_free(&text);
+    return command;
+}
+
+/* A result of so many frames, of which every second is measured, in a folder of results. */
+static struct kiln_result full_result(struct kiln_arena *arena, uint32_t frames,
+                                      const char *results)
 {
     struct kiln_result result = {.column_count = COLUMNS, .change_count = 2, .note_count = 2};
     uint32_t next = 0;
     fill(kiln_result_members, &result, &next, arena);
     result.status = KILN_TEST_NEW;
+    result.name = "effects/fire";
+    result.test = kiln_arena_format(arena, "%s.yaml", result.test);
+    result.rerun = command_of(arena, "kiln test", results, result.test);
+    result.approve = command_of(arena, "kiln test approve", results, result.name);
     for (size_t i = 0; i < COLUMNS; i++)
         fill(kiln_result_column_members, &result.columns[i], &next, arena);
     result.frame_count = frames;
@@ -156,10 +178,11 @@ static void results_survive_the_file(void **state)
     snprintf(inner, sizeof inner, "%s/effects/fire", folder);
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
         struct kiln_arena *arena = kiln_arena_create();
-        struct kiln_result result = full_result(arena, frames[i]);
+        struct kiln_result result = full_result(arena, frames[i], folder);
         struct kiln_error error = {0};
         assert_true(kiln_result_write(&result, inner, &error));
-        struct kiln_result *back = kiln_result_read(arena, inner, &error);
+        struct kiln_result *back =
+            kiln_result_read(arena, &(struct kiln_result_place){folder, "effects/fire"}, &error);
         if (!back)
             fail_msg("%s", error.message);
         else
@@ -271,6 +294,15 @@ static const struct broken {
      "36:420: beyond: found \"ssim\"; allowed is a metric of the columns"},
     {"\"beyond\": [\"psnr\"]", "\"beyond\": 1", "36:5: beyond: a list of metrics must be here"},
     {"\"measured\": true", "\"measured\": false", "36:5: found 24 members; allowed are 14"},
+    {"\"picture\": \"\"", "\"picture\": \"a b\"",
+     "36:87: picture: found \"a b\"; allowed is the name of a file in the folder of the result"},
+    {"\"pixels\": \"\"", "\"pixels\": \"xyz\"",
+     "36:184: pixels: found \"xyz\"; allowed is a hash of at most 64 digits of 0 to 9 and a to f"},
+    {"\"rerun\": \"\"", "\"rerun\": \"sh\"",
+     "31:12: rerun: found \"sh\"; allowed is the command that kiln test writes for this test"},
+    {"\"approve\": \"\"", "\"approve\": \"kiln test approve b\"",
+     "32:14: approve: found \"kiln test approve b\"; allowed is the command that kiln test writes "
+     "for this test"},
     {"\"notes\": []", "\"notes\": [{}]",
      "39:13: notes: found an object; allowed is a text in quotes"},
     {"\"changes\": []", "\"changes\": [1]", "38:15: key is missing"},
@@ -327,21 +359,25 @@ static void broken_results_are_refused_with_their_place(void **state)
 static void files_that_are_no_result(void **state)
 {
     (void)state;
-    char folder[32], path[64];
+    char folder[32], inner[64], path[96];
     test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/result.json", folder);
+    snprintf(inner, sizeof inner, "%s/a", folder);
+    snprintf(path, sizeof path, "%s/result.json", inner);
+    assert_int_equal(mkdir(inner, 0777), 0);
+    const struct kiln_result_place place = {folder, "a"};
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_error error = {0};
-    assert_null(kiln_result_read(arena, folder, &error));
-    expect_error(&error, KILN_INVALID_INPUT, "%s: No such file or directory", path);
+    assert_null(kiln_result_read(arena, &place, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: the result of a test cannot be opened: No such file or directory", path);
 
     assert_int_equal(mkdir(path, 0777), 0);
-    assert_null(kiln_result_read(arena, folder, &error));
-    expect_error(&error, KILN_INVALID_INPUT, "%s: the path is a folder, not the result of a test",
-                 path);
+    assert_null(kiln_result_read(arena, &place, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: the path is not a file but a folder; allowed are JSON files", path);
     struct kiln_result result;
     kiln_result_init(&result, "a");
-    assert_false(kiln_result_write(&result, folder, &error));
+    assert_false(kiln_result_write(&result, inner, &error));
     expect_error(&error, KILN_USAGE, "%s: a folder has this name", path);
     assert_int_equal(rmdir(path), 0);
 
@@ -349,11 +385,11 @@ static void files_that_are_no_result(void **state)
     assert_non_null(file);
     fputs("{\"name\": \"\xff\"}", file);
     fclose(file);
-    assert_null(kiln_result_read(arena, folder, &error));
+    assert_null(kiln_result_read(arena, &place, &error));
     expect_error(&error, KILN_INVALID_INPUT, "%s:1:11: not a text: invalid UTF-8 (byte 0xff)",
                  path);
     assert_int_equal(truncate(path, 0), 0);
-    assert_null(kiln_result_read(arena, folder, &error));
+    assert_null(kiln_result_read(arena, &place, &error));
     expect_error(&error, KILN_INVALID_INPUT, "%s: the file is empty; expected a result", path);
     kiln_arena_destroy(&arena);
     test_remove_folder(folder);

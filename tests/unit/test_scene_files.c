@@ -137,6 +137,8 @@ static void assets_stay_below_the_scene(void **state)
     assert_int_equal(symlink("../outside.bmp", "scenes/link.bmp"), 0);
     assert_int_equal(symlink("..", "scenes/up"), 0);
     assert_int_equal(symlink("textures/in.bmp", "scenes/fine.bmp"), 0);
+    assert_int_equal(symlink("../missing.bmp", "scenes/dangling.bmp"), 0);
+    assert_int_equal(symlink("/missing/a.bmp", "scenes/absolute.bmp"), 0);
 
     static const char outside[] =
         "is outside the asset root; a path starts at the scene's folder and stays below it";
@@ -149,6 +151,10 @@ static void assets_stay_below_the_scene(void **state)
     expect_atlas_error("/etc/passwd", message);
     expect_atlas_error("link.bmp", "'link.bmp' leads outside the asset root");
     expect_atlas_error("up/outside.bmp", "'up/outside.bmp' leads outside the asset root");
+    /* A refusal must not tell whether something is there. */
+    expect_atlas_error("dangling.bmp", "'dangling.bmp' leads outside the asset root");
+    expect_atlas_error("absolute.bmp", "'absolute.bmp' leads outside the asset root");
+    expect_atlas_error("up/missing.bmp", "'up/missing.bmp' leads outside the asset root");
     expect_atlas_error("textures", "'textures' is not a file");
     expect_atlas_error(
         "no.bmp",

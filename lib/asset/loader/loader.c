@@ -1,5 +1,5 @@
-/* Opens the files that a scene names, below the asset root and nowhere else, and hands out the
- * processes that decode them. */
+/* Opens the files that a scene names, below the asset root and nowhere else, even if links are
+ * swapped meanwhile, and hands out the processes that decode them. */
 #include "asset/loader/loader.h"
 
 #include <errno.h>
@@ -139,8 +139,8 @@ static int open_file(const struct kiln_loader *loader, const struct kiln_loader_
                        file->path);
         return -1;
     }
-    const int found =
-        root ? kiln_file_open_below(root, relative) : open(file->path, KILN_FILE_FLAGS);
+    const int found = root ? kiln_file_open_below(root, relative, KILN_FILE_FLAGS)
+                           : open(file->path, KILN_FILE_FLAGS);
     if (found < 0 && root && (errno == EXDEV || errno == ELOOP))
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path leads outside the asset root",
                        file->path);

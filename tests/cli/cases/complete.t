@@ -1,4 +1,4 @@
-What may follow on a command line, for the scripts of bash and zsh; tests/completion has it typed.
+What may follow on a command line, for the scripts of bash, zsh and fish; tests/completion has it typed.
 
 $ kiln complete -- re
 1|word	render	render scenes into images or videos

@@ -184,7 +184,7 @@ $ kiln render scenes/tiny.yaml -o - --frames 0 --device cpu --events openjd -q 2
 $ kiln render "$(printf 'a\nopenjd_env: B=C')" -q -o a.png --events openjd 2>/dev/null
 1|openjd_progress: 0
 1|openjd_status: kiln 0.2.0: render
-1|openjd_fail: a\nopenjd_env: B=C: No such file or directory
+1|openjd_fail: a\nopenjd _env: B=C: No such file or directory
 1|openjd_status: exit code 3, again: never
 = 3
 $ kiln render scenes/tiny.yaml -q -o j_never.mp4 --set output.frames=3000 --device cpu --events openjd 2>/dev/null >stopped & until grep -qsx "openjd_progress: 1" stopped; do sleep 0.05; done; kill -TERM $!; wait $!; tail -n 2 stopped

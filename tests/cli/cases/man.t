@@ -12,7 +12,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln encode [\fIOPTION...\fR] \fIFRAMES\fR
 1|.SS kiln compare [\fIOPTION...\fR] \fIREFERENCE TEST\fR
 1|.SS kiln test [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
-1|.SS kiln test approve [\fIOPTION...\fR] \fI[NAME]...\fR
+1|.SS kiln test approve [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
 1|.SS kiln test calibrate [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
 1|.SS kiln test report [\fIOPTION...\fR] \fIFOLDER...\fR
 1|.SS kiln test list [\fIOPTION...\fR] \fI[PATH | NAME]...\fR
@@ -38,7 +38,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|330
+1|332
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION

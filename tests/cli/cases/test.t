@@ -75,6 +75,7 @@ $ kiln test fire -q --update missing
 1|1 frame: 0 by pixels, 1 by metrics
 = 1
 $ kiln complete -- test approve fi | cut -f 1,2
+1|file:*.y*ml	
 1|word	fire
 $ kiln test approve fire --dry-run
 1|would write golden/fire/frame_0006.png
@@ -291,7 +292,7 @@ $ kiln test one --no-report; mv golden/one/fir golden/fire; rm -r one golden/one
 1|new     one/scenes/empty  1 frame in <s> s: frame 1 has no golden: the file golden/one/scenes/empty/frame_0001.png is missing
 1|2 tests in <s> s: 2 new
 1|golden/one/fir: no test uses these goldens; perhaps a test was renamed or lost
-1|where the pictures are right, accept them: kiln test approve --all
+1|where the pictures are right, accept them: kiln test approve --all one
 1|2 frames: 0 by pixels, 0 by metrics, 2 by nothing
 
 Results do not go where goldens are, whose pictures they would replace.

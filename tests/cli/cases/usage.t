@@ -43,7 +43,7 @@ $ kiln
 2|  events-schema    the JSON schema of events
 2|  exit-codes       what each exit code means
 2|  environment      the variables of the environment that kiln reads
-2|  completion       completion of command lines in bash and zsh
+2|  completion       completion of command lines in bash, zsh and fish
 2|  man              the manual page, for `man -l`
 2|  man-scene        the manual page of scene files
 2|
@@ -96,7 +96,7 @@ $ kiln --help
 1|  events-schema    the JSON schema of events
 1|  exit-codes       what each exit code means
 1|  environment      the variables of the environment that kiln reads
-1|  completion       completion of command lines in bash and zsh
+1|  completion       completion of command lines in bash, zsh and fish
 1|  man              the manual page, for `man -l`
 1|  man-scene        the manual page of scene files
 1|
