@@ -1,0 +1,156 @@
+"""Looks at, copies and removes files that a job, or the stranger whose job it is, has made.
+
+Nothing here follows a link: each file is opened by its name in a folder that is open, and judged by what was opened.
+"""
+import contextlib
+import errno
+import hashlib
+import itertools
+import os
+import stat
+
+MOST_DEPTH = 64  # folders in each other
+BLOCK_BYTES = 1 << 20
+ZEROS = bytes(BLOCK_BYTES)
+UNKNOWN = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY  # opens a FIFO or a device without waiting for it
+FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW
+KINDS = {stat.S_IFIFO: "a FIFO", stat.S_IFSOCK: "a socket", stat.S_IFCHR: "a device", stat.S_IFBLK: "a device",
+         stat.S_IFDIR: "a folder"}
+
+
+@contextlib.contextmanager
+def opened(name, flags, folder=None, mode=0o666):
+    file = os.open(name, flags, mode, dir_fd=folder)
+    try:
+        yield file
+    finally:
+        os.close(file)
+
+
+def kind_of(mode):
+    return KINDS.get(stat.S_IFMT(mode), "an unknown kind of file")
+
+
+def refuse(error):
+    raise error
+
+
+def objection(place):
+    """Returns what is wrong with the files of the job in a folder, or None. A file with another hard link may belong
+    to somebody else, and a folder that cannot be read may hide one."""
+    if not stat.S_ISDIR(os.lstat(place / "job").st_mode):
+        return "job: is not a folder"
+    folder = "job"
+    try:
+        with opened(place, FOLDER) as top:
+            for folder, _, names, handle in os.fwalk("job", onerror=refuse, dir_fd=top):
+                if folder.count("/") > MOST_DEPTH:
+                    return f"{folder[:60]}...: lies in more than {MOST_DEPTH} folders"
+                for name in names:
+                    status = os.stat(name, dir_fd=handle, follow_symlinks=False)
+                    if not stat.S_ISREG(status.st_mode) and not stat.S_ISLNK(status.st_mode):
+                        return f"{folder}/{name}: is {kind_of(status.st_mode)}"
+                    if status.st_nlink != 1:
+                        return f"{folder}/{name}: has another name, too (a hard link)"
+    except OSError as error:
+        return f"{folder}: a file or folder in it cannot be read: {error.strerror}"
+    return None
+
+
+def copy_clip(place, most_bytes, owner):
+    """Copies output/clip.mp4 to clip.mp4, a file of the worker's own that appears when it is whole. Returns its size
+    and SHA-256. Nothing of the job may live. Raises OSError with the reason if it is no clip of the job: the job could
+    write to the folder."""
+    with contextlib.ExitStack() as files:
+        top = files.enter_context(opened(place, FOLDER))
+        output = files.enter_context(opened("output", FOLDER, top))
+        try:
+            clip = files.enter_context(opened("clip.mp4", UNKNOWN, output))
+        except OSError as error:
+            said = "is a link" if error.errno == errno.ELOOP else f"cannot be opened: {error.strerror}"
+            raise OSError(f"output/clip.mp4 {said}") from error
+        status = os.fstat(clip)
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(f"output/clip.mp4 is {kind_of(status.st_mode)}")
+        if status.st_nlink != 1:
+            raise OSError("output/clip.mp4 has another name, too (a hard link)")
+        if status.st_uid != owner:
+            raise OSError(f"output/clip.mp4 belongs to the user {status.st_uid}, and not to the job's user {owner}")
+        if most_bytes is not None and status.st_size > most_bytes:
+            raise OSError(f"output/clip.mp4 has {status.st_size} bytes; the limit `output` is {most_bytes}")
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink("clip.tmp", dir_fd=top)
+        copy = files.enter_context(opened("clip.tmp", os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, top))
+        digest = copy_sparse(clip, copy, status.st_size)
+        os.fsync(copy)
+        os.rename("clip.tmp", "clip.mp4", src_dir_fd=top, dst_dir_fd=top)
+        return {"bytes": status.st_size, "sha256": digest}
+
+
+def copy_sparse(source, target, size):
+    """Copies as many bytes, and leaves out blocks of zeros, so that the copy takes no more room. Returns the SHA-256."""
+    digest, left = hashlib.sha256(), size
+    while left:
+        block = os.read(source, min(left, BLOCK_BYTES))
+        if not block:
+            raise OSError(f"output/clip.mp4 ends {left} bytes early")
+        digest.update(block)
+        left -= len(block)
+        if block == ZEROS[:len(block)]:
+            os.lseek(target, len(block), os.SEEK_CUR)
+            continue
+        written = 0
+        while written < len(block):
+            written += os.write(target, block[written:])
+    os.truncate(target, size)
+    return digest.hexdigest()
+
+
+def remove(place, names):
+    """Removes files and folders of a folder, however deep they are, and whatever their modes. Each folder is moved up
+    before what is in it is removed, so no path gets long. What was begun before the worker went down is completed."""
+    with opened(place, FOLDER) as top:
+        with contextlib.suppress(FileExistsError):
+            os.mkdir("removed", 0o700, dir_fd=top)
+        with opened("removed", FOLDER, top) as removed:
+            with os.scandir(removed) as entries:
+                numbers = itertools.count(1 + max((int(entry.name) for entry in entries), default=0))
+            for name in names:
+                with contextlib.suppress(FileNotFoundError):
+                    move_up(name, top, removed, numbers)
+            while entries := some_entries(removed):
+                for entry in entries:
+                    if entry.is_dir(follow_symlinks=False):
+                        empty(entry.name, removed, numbers)
+                    else:
+                        os.unlink(entry.name, dir_fd=removed)
+        os.rmdir("removed", dir_fd=top)
+
+
+def some_entries(folder):
+    with os.scandir(folder) as entries:
+        return list(itertools.islice(entries, 1000))
+
+
+def let_in(name, folder):
+    """Gives the owner all rights to a folder, where that is this user. Others need none: they are root."""
+    with contextlib.suppress(PermissionError):
+        os.chmod(name, 0o700, dir_fd=folder)
+
+
+def move_up(name, folder, removed, numbers):
+    if stat.S_ISDIR(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
+        let_in(name, folder)
+    os.rename(name, str(next(numbers)), src_dir_fd=folder, dst_dir_fd=removed)
+
+
+def empty(name, removed, numbers):
+    let_in(name, removed)
+    with opened(name, FOLDER, removed) as folder:
+        while entries := some_entries(folder):
+            for entry in entries:
+                if entry.is_dir(follow_symlinks=False):
+                    move_up(entry.name, folder, removed, numbers)
+                else:
+                    os.unlink(entry.name, dir_fd=folder)
+    os.rmdir(name, dir_fd=removed)
