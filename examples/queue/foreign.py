@@ -110,47 +110,43 @@ def remove(place, names):
     """Removes files and folders of a folder, however deep they are, and whatever their modes. Each folder is moved up
     before what is in it is removed, so no path gets long. What was begun before the worker went down is completed."""
     with opened(place, FOLDER) as top:
-        with contextlib.suppress(FileExistsError):
-            os.mkdir("removed", 0o700, dir_fd=top)
-        with opened("removed", FOLDER, top) as removed:
-            with os.scandir(removed) as entries:
-                numbers = itertools.count(1 + max((int(entry.name) for entry in entries), default=0))
-            for name in names:
-                with contextlib.suppress(FileNotFoundError):
-                    move_up(name, top, removed, numbers)
-            while entries := some_entries(removed):
-                for entry in entries:
-                    if entry.is_dir(follow_symlinks=False):
-                        empty(entry.name, removed, numbers)
-                    else:
-                        os.unlink(entry.name, dir_fd=removed)
-        os.rmdir("removed", dir_fd=top)
+        waiting = [*names, *(name for name in os.listdir(top) if name.startswith("removed."))]
+        numbers = (number for number in itertools.count() if f"removed.{number}" not in waiting)
+        while waiting:
+            with contextlib.suppress(FileNotFoundError):
+                remove_one(waiting.pop(), top, waiting, numbers)
+
+
+def remove_one(name, top, waiting, numbers):
+    """Removes a file, or a folder whose own folders are moved up and wait."""
+    if not is_folder(name, top):
+        os.unlink(name, dir_fd=top)
+        return
+    let_in(name, top)
+    with opened(name, FOLDER, top) as folder:
+        while entries := some_entries(folder):
+            for entry in entries:
+                if entry.is_dir(follow_symlinks=False):
+                    let_in(entry.name, folder)
+                    waiting.append(f"removed.{next(numbers)}")
+                    os.rename(entry.name, waiting[-1], src_dir_fd=folder, dst_dir_fd=top)
+                else:
+                    os.unlink(entry.name, dir_fd=folder)
+    os.rmdir(name, dir_fd=top)
+
+
+def is_folder(name, folder):
+    return stat.S_ISDIR(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode)
 
 
 def some_entries(folder):
+    """Returns entries of a folder, a thousand at most: a job may have made millions."""
     with os.scandir(folder) as entries:
         return list(itertools.islice(entries, 1000))
 
 
 def let_in(name, folder):
     """Gives the owner all rights to a folder, where that is this user. Others need none: they are root."""
-    with contextlib.suppress(PermissionError):
-        os.chmod(name, 0o700, dir_fd=folder)
-
-
-def move_up(name, folder, removed, numbers):
-    if stat.S_ISDIR(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
-        let_in(name, folder)
-    os.rename(name, str(next(numbers)), src_dir_fd=folder, dst_dir_fd=removed)
-
-
-def empty(name, removed, numbers):
-    let_in(name, removed)
-    with opened(name, FOLDER, removed) as folder:
-        while entries := some_entries(folder):
-            for entry in entries:
-                if entry.is_dir(follow_symlinks=False):
-                    move_up(entry.name, folder, removed, numbers)
-                else:
-                    os.unlink(entry.name, dir_fd=folder)
-    os.rmdir(name, dir_fd=removed)
+    if os.geteuid() != 0:
+        with contextlib.suppress(PermissionError):
+            os.chmod(name, 0o700, dir_fd=folder)

@@ -157,7 +157,9 @@ class Keeper:
         status = spool.stat()
         self.user = user
         self.name = f"kiln-queue-{status.st_dev:x}-{status.st_ino:x}."
-        self.record = spool / "session"
+        self.boot = boot()
+        self.record = os.open(spool / "session", os.O_RDWR | os.O_CREAT, 0o600)
+        self.null = os.open(os.devnull, os.O_RDONLY)
         self.mount, self.parent = hierarchy()
         prctl(PR_SET_CHILD_SUBREAPER, 1)
         for number in map(int, os.listdir("/proc/self/fd")):
@@ -206,8 +208,8 @@ class Keeper:
                 end_group(group)
         if self.user and not self.parent:
             until(lambda: not self.kill_jobs(lambda *_: True))
-        then, _, session = self.record.read_text().partition(" ") if self.record.exists() else ("", "", "")
-        if then == boot() and session.isdigit():
+        then, _, session = os.pread(self.record, 100, 0).decode(errors="replace").strip().partition(" ")
+        if then == self.boot and session.isdigit():
             # The number may be that of another session by now, whose processes may gain rights.
             until(lambda: not self.kill_jobs(lambda its_session, fixed: fixed and its_session == int(session)))
 
@@ -224,15 +226,13 @@ class Keeper:
     def start(self, command, environment, folder, told, messages):
         """Starts a job, which writes to the descriptors `told` and `messages`."""
         group = self.make_group()
-        worker, this_boot = os.getpid(), boot()
-        record = os.open(self.record, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
-        null = os.open(os.devnull, os.O_RDONLY)
+        worker = os.getpid()
         process = fork_into(group)
         if process == 0:
             try:
                 os.setsid()
-                os.write(record, f"{this_boot} {os.getpid()}".encode())
-                for number, file in enumerate((null, told, messages)):
+                os.pwrite(self.record, f"{self.boot} {os.getpid():010}\n".encode(), 0)
+                for number, file in enumerate((self.null, told, messages)):
                     os.dup2(file, number)
                 os.chdir(folder)
                 if self.user:
@@ -247,8 +247,6 @@ class Keeper:
                 os.write(2, f"{command[0]}: {error}".encode(errors="replace"))
             finally:
                 os._exit(126)
-        os.close(record)
-        os.close(null)
         return Job(self, process, group)
 
 

@@ -43,20 +43,30 @@ def stop(*_):
         now.job.send(signal.SIGTERM)
 
 
-def write_durably(path, text, mode):
-    with open(path, mode, encoding="utf-8") as file:
+def write_durably(path, text):
+    with open(path, "w", encoding="utf-8") as file:
         file.write(text)
         file.flush()
         os.fsync(file.fileno())
 
 
+def add_to_report(spool, line):
+    """Adds a line. Half a line may be there, of a worker that was killed or of a full disk."""
+    with open(spool / "report.ndjson", "a+b") as report:
+        if end := report.tell():
+            report.seek(end - 1)
+            line = line if report.read(1) == b"\n" else "\n" + line
+        report.write(line.encode())
+        report.flush()
+        os.fsync(report.fileno())
+
+
 def begin_try(events):
     """Creates the file of events, which counts the try, durably before kiln runs: the try may take the machine
     down."""
-    write_durably(events, "", "w")
-    folder = os.open(events.parent, os.O_RDONLY | os.O_DIRECTORY)
-    os.fsync(folder)
-    os.close(folder)
+    events.touch()
+    with foreign.opened(events.parent, foreign.FOLDER) as folder:
+        os.fsync(folder)
 
 
 def make_folder(place, name, user):
@@ -151,8 +161,6 @@ def render(place, given):
         try:
             return {"outcome": "done", "code": 0, **foreign.copy_clip(place, given.most_output, given.owner)}
         except OSError as error:
-            if error.errno in MACHINE:
-                raise
             return failed(0, f"kiln ended well, and yet: {error}")
     if now.stopping:
         events.unlink()  # does not count as a try
@@ -207,9 +215,9 @@ def record(name, result, start, spool):
     line = json.dumps({"job": name, **result, "seconds": round(time.monotonic() - start, 2),
                        "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}) + "\n"
     if result["outcome"] != "again":
-        write_durably(place / "result.tmp", line, "w")
+        write_durably(place / "result.tmp", line)
         (place / "result.tmp").rename(place / "result.json")
-    write_durably(spool / "report.ndjson", line, "a")
+    add_to_report(spool, line)
     if result["outcome"] != "again":
         settle(place, spool)
 
@@ -228,8 +236,6 @@ def give_up(name, error, given):
         return failed(3, "is not a folder")
     if not os.path.lexists(place / "job"):
         given.stuck.add(name)  # it stays in `incoming`, and must not be tried for ever
-    if getattr(error, "errno", None) in MACHINE:  # perhaps the job has filled the disk
-        foreign.remove(place, ("output", "tmp", "clip.tmp"))
     return failed(6, f"the worker cannot go on with it: {error}")
 
 
@@ -245,7 +251,13 @@ def work_on(name, given):
     except JOB_ERRORS as error:
         result = give_up(name, error, given)
     if result:
-        record(name, result, start, given.spool)
+        try:
+            record(name, result, start, given.spool)
+        except OSError as error:
+            if error.errno not in MACHINE:
+                raise
+            foreign.remove(place, ("output", "tmp", "clip.tmp"))  # perhaps the job has filled the disk
+            record(name, result, start, given.spool)
 
 
 def recover_job(place, lines, given):
@@ -257,7 +269,7 @@ def recover_job(place, lines, given):
             known.unlink()  # the job runs again, and keeps what it has drawn
             return
         if line.rstrip("\n") not in lines:
-            write_durably(given.spool / "report.ndjson", line, "a")
+            add_to_report(given.spool, line)
         settle(place, given.spool)
     elif not os.path.lexists(place / "job") and not os.path.lexists(given.spool / "incoming" / place.name):
         place.rmdir()
@@ -266,9 +278,7 @@ def recover_job(place, lines, given):
 def recover(given):
     """Completes the report, and the jobs whose results are known, after a worker was killed."""
     report = given.spool / "report.ndjson"
-    lines = report.read_text().splitlines() if report.exists() else []
-    if lines and not report.read_text().endswith("\n"):
-        write_durably(report, "\n", "a")
+    lines = report.read_text(errors="replace").splitlines() if report.exists() else []
     for name in names_in(given.spool / "running"):
         try:
             recover_job(given.spool / "running" / name, lines, given)

@@ -133,7 +133,7 @@ class Way:
     def report(self):
         path = self.spool / "report.ndjson"
         lines = path.read_text().splitlines() if path.exists() else []
-        return [json.loads(line) for line in lines]
+        return [json.loads(line) for line in lines if line.endswith("}")]
 
     def results(self):
         return {line["job"]: line for line in self.report() if line["outcome"] != "again"}
@@ -282,6 +282,45 @@ class Way:
             expect((self.spool / outcome / name / "result.json").exists(), self.name, name, "is not in", outcome)
         expect(self.secret.read_text() == SECRET and os.listdir("/etc"), self.name, "a file of others has changed")
 
+    def attack_with_places(self):
+        """Begins with jobs that were running, whose outputs are of somebody else, or lie elsewhere."""
+        elsewhere = self.work / "elsewhere"
+        elsewhere.mkdir()
+        (elsewhere / "clip.mp4").write_text(SECRET)
+        owned, linked = (self.spool / "running" / f"places {name}" for name in ("owned", "linked"))
+        for place in (owned, linked):
+            (place / "job").mkdir(parents=True)
+            (place / "job/attack").write_text("no clip\n")
+        self.own(self.spool)
+        os.symlink(elsewhere, linked / "output")
+        (owned / "output").mkdir()
+        if os.geteuid() == 0:
+            os.chown(owned / "output", self.user, self.user)
+        (owned / "output/clip.mp4").write_text(SECRET)
+        before = elsewhere.stat().st_uid
+        self.end(self.begin())
+        results = self.results()
+        if os.geteuid() == 0:
+            expect("belongs to the user 0" in results["places owned"]["message"], self.name, results["places owned"])
+        expect(results["places linked"]["outcome"] == "failed", self.name, results["places linked"])
+        expect(elsewhere.stat().st_uid == before and (elsewhere / "clip.mp4").exists(), self.name,
+               "a folder of others has changed")
+
+    def attack_disk(self):
+        """Lets a job fill the disk, which is small. The next job has room again, and the report has both."""
+        if not self.is_root or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m,mode=755", "none", self.spool],
+                                              stderr=subprocess.DEVNULL).returncode:
+            return
+        try:
+            (self.spool / "incoming").mkdir()
+            self.bring("a", "fill the disk")
+            self.bring("b", "good")
+            self.end(self.begin())
+            found = [(line["job"], line["outcome"]) for line in self.report()]
+            expect({("a", "failed"), ("b", "done")} <= set(found), self.name, "a full disk leads to", found)
+        finally:
+            subprocess.run(["umount", self.spool], check=True)
+
     def attack_next_worker(self):
         """Kills a worker. Its job tries to live on, to keep the lock, and to disturb its own second try."""
         self.bring("next", "next worker")
@@ -301,7 +340,7 @@ class Way:
         self.make_group()
         try:
             for attack in (self.attack_at_once, self.attack_names, self.attack_removals, self.attack_with_files,
-                           self.attack_next_worker):
+                           self.attack_with_places, self.attack_disk, self.attack_next_worker):
                 attack()
         finally:
             for number in self.left():

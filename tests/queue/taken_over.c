@@ -238,6 +238,19 @@ static int go_deep(void)
     return fchdir(folder) || write_clip();
 }
 
+/* Takes all room that the disk has. */
+static int fill_the_disk(void)
+{
+    static char block[1 << 16];
+    const int file = open("output/fill", O_WRONLY | O_CREAT | O_APPEND, 0600);
+    memset(block, 'x', sizeof block);
+    for (size_t size = sizeof block; file >= 0 && size; size /= 2) {
+        while (write(file, block, size) > 0)
+            continue;
+    }
+    return 1;
+}
+
 /* Takes back what it has told, as if it had never started. */
 static int never_started(void)
 {
@@ -307,6 +320,7 @@ static const struct attack {
     {"no clip", no_clip},
     {"hidden files", hide_files},
     {"deep", go_deep},
+    {"fill the disk", fill_the_disk},
     {"never started", never_started},
     {"endless line", endless_line},
     {"long message", long_message},
