@@ -16,6 +16,7 @@ import signal
 import time
 
 PATIENCE_S = 10  # after SIGKILL; a process that waits for a device cannot end before the device answers
+NO_END = "its processes do not end"
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 36, 38
 SYS_CLONE3, CLONE_INTO_CGROUP = 435, 1 << 33
 library = ctypes.PyDLL(None, use_errno=True)
@@ -77,6 +78,10 @@ def processes():
             yield int(place), int(parent), int(session), user, b"\nNoNewPrivs:\t1\n" in status
 
 
+def children():
+    return {number for number, parent, *_ in processes() if parent == os.getpid()}
+
+
 def kill(numbers):
     for number in numbers:
         try:
@@ -108,7 +113,7 @@ def until(condition):
     end, pause_s = time.monotonic() + PATIENCE_S, 0.0005
     while not condition():
         if time.monotonic() > end:
-            raise TimeoutError("processes of the job do not end")
+            raise TimeoutError(NO_END)
         time.sleep(pause_s)
         pause_s = min(2 * pause_s, 0.05)
 
@@ -144,7 +149,7 @@ def end_group(group):
             if b"populated 1" in os.pread(events, 4096, 0):
                 changed.poll(100)
             if time.monotonic() > end:
-                raise TimeoutError("processes of the job do not end")
+                raise TimeoutError(NO_END)
     finally:
         os.close(events)
     group.rmdir()
@@ -158,6 +163,7 @@ class Keeper:
         self.user = user
         self.name = f"kiln-queue-{status.st_dev:x}-{status.st_ino:x}."
         self.boot = boot()
+        self.dying = set()  # children that were killed, and that wait for a device: they run no code of theirs again
         self.record = os.open(spool / "session", os.O_RDWR | os.O_CREAT, 0o600)
         self.null = os.open(os.devnull, os.O_RDONLY)
         self.mount, self.parent = hierarchy()
@@ -201,17 +207,23 @@ class Keeper:
         raise OSError(errno.EEXIST, "there are too many cgroups whose processes do not end")
 
     def end_what_was_left(self):
-        """Ends what the job of a killed worker has left."""
+        """Ends what the job of a killed worker has left. Raises TimeoutError when it was killed and does not end."""
         folders = os.walk(self.mount) if self.mount else ()
-        for group in [pathlib.Path(top, name) for top, names, _ in folders for name in names]:
-            if group.name.startswith(self.name):
+        left = [pathlib.Path(top, name) for top, names, _ in folders for name in names if name.startswith(self.name)]
+        dying = None
+        for group in left:
+            try:
                 end_group(group)
+            except TimeoutError as error:
+                dying = error
         if self.user and not self.parent:
             until(lambda: not self.kill_jobs(lambda *_: True))
         then, _, session = os.pread(self.record, 100, 0).decode(errors="replace").strip().partition(" ")
         if then == self.boot and session.isdigit():
             # The number may be that of another session by now, whose processes may gain rights.
             until(lambda: not self.kill_jobs(lambda its_session, fixed: fixed and its_session == int(session)))
+        if dying:
+            raise dying
 
     def kill_jobs(self, belongs):
         """Kills those processes of the jobs' user that `belongs` accepts. Returns whether there were any."""
@@ -270,13 +282,18 @@ class Job:
         """Ends the job with all that it has started. Returns its exit code as a shell does (128 + the signal's number).
         Raises TimeoutError when processes do not end."""
         self.signal_all(signal.SIGKILL)
-        if not self.ends_within(PATIENCE_S):
-            raise TimeoutError("processes of the job do not end")
+        ended = self.ends_within(PATIENCE_S)
         os.close(self.handle)
-        code = os.waitstatus_to_exitcode(os.waitpid(self.process, 0)[1])
-        if self.group:
-            end_group(self.group)
-        until(self.no_child_is_left)
+        try:
+            if not ended:
+                raise TimeoutError(NO_END)
+            code = os.waitstatus_to_exitcode(os.waitpid(self.process, 0)[1])
+            if self.group:
+                end_group(self.group)
+            until(self.no_child_is_left)
+        except TimeoutError:
+            self.keeper.dying |= children()
+            raise
         return code if code >= 0 else 128 - code
 
     def no_child_is_left(self):
@@ -285,8 +302,11 @@ class Job:
             while os.waitpid(-1, os.WNOHANG)[0]:
                 pass
         except ChildProcessError:
+            self.keeper.dying.clear()
             return True
-        kill(number for number, parent, *_ in processes() if parent == os.getpid())
+        if not (left := children() - self.keeper.dying):
+            return True
+        kill(left)
         self.rounds += 1
         if self.rounds % 10 == 0 and self.keeper.user:
             kill_all_of(self.keeper.user)  # for a process that forks faster than it is found

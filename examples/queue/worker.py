@@ -372,7 +372,10 @@ def main():
         signal.signal(number, stop)
     try:
         given.keeper = processes.Keeper(spool, given.user)
-        given.keeper.end_what_was_left()
+        try:
+            given.keeper.end_what_was_left()
+        except TimeoutError as error:  # they were killed, and run no code of theirs again
+            print(f"worker: of a job whose worker was killed: {error}", file=sys.stderr)
         recover(given)
         work(given)
     except OSError as error:  # such as a full disk
