@@ -53,7 +53,8 @@ def objection(place):
                     if status.st_nlink != 1:
                         return f"{folder}/{name}: has another name, too (a hard link)"
     except OSError as error:
-        return f"{folder}: a file or folder in it cannot be read: {error.strerror}"
+        name = f"{folder}/{error.filename}" if isinstance(error.filename, str) and error.filename != folder else folder
+        return f"{name}: cannot be read: {error.strerror}"
     return None
 
 

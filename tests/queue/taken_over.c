@@ -21,7 +21,7 @@
 #define CLIP  "output/clip.mp4"
 #define LIMIT ((off_t)8 << 20) /* of `output`, in bytes */
 
-enum { LIFE_S = 60, CHAINS = 4, CHAIN_S = 10, DEEP = 3000 };
+enum { LIFE_S = 60, CHAINS = 4, CHAIN_S = 10, DEEP = 1200 };
 
 static char secret[4096];
 
@@ -232,7 +232,7 @@ static int go_deep(void)
     if (chdir("output") != 0)
         return 1;
     for (int i = 0; i < DEEP; i++) {
-        if (mkdir("d", 0700) != 0 || chdir("d") != 0)
+        if (mkdir("deep", 0700) != 0 || chdir("deep") != 0)
             return 1;
     }
     return fchdir(folder) || write_clip();
