@@ -99,6 +99,10 @@ def kill_all_of(user):
             os.kill(-1, signal.SIGKILL)
         finally:
             os._exit(0)
+    handle = os.pidfd_open(child)
+    if not select.select([handle], [], [], 1)[0]:  # a process of that user may have stopped it
+        os.kill(child, signal.SIGKILL)
+    os.close(handle)
     os.waitpid(child, 0)
 
 

@@ -28,7 +28,8 @@ import processes  # noqa: E402
 
 TRIES = 3  # the most tries of a job that may succeed when it is run again, or during which the worker went down
 GRACE_S = 10  # seconds from --timeout until SIGTERM, and from there until SIGKILL
-LINE_BYTES, EVENT_BYTES, MESSAGE_CHARACTERS = 64 << 10, 64 << 20, 4000  # the most that is read of what a job says
+# The most that is read and kept of what a job says.
+LINE_BYTES, EVENT_LINES, EVENT_BYTES, MESSAGE_CHARACTERS = 64 << 10, 500_000, 64 << 20, 4000
 UNITS = {"": 1, "B": 1, **{f"{prefix}B": 1000 ** i for i, prefix in enumerate("kMGT", 1)},
          **{f"{prefix}iB": 1024 ** i for i, prefix in enumerate("KMGT", 1)}}
 # Errors of the machine, of which the jobs that wait are not to blame.
@@ -116,12 +117,29 @@ def kiln_starts(place, given):
 
 
 def lines_of(path):
-    """Yields the lines of a file that a job wrote. What is too long for an event is cut."""
+    """Yields the lines of a file that a job wrote, up to a number. What is too long for an event is cut."""
     with open(path, "rb") as file:
-        left = EVENT_BYTES
-        while left > 0 and (line := file.readline(LINE_BYTES)):
-            left -= len(line)
+        for line in itertools.islice(iter(lambda: file.readline(LINE_BYTES), b""), EVENT_LINES):
             yield line.decode(errors="replace")
+
+
+def cut(place, most_bytes):
+    """Cuts the files of what a job has said."""
+    for path in (*place.glob("events.*.ndjson"), place / "messages"):
+        if path.exists() and path.stat().st_size > most_bytes:
+            os.truncate(path, most_bytes)
+
+
+def is_full(spool):
+    """Returns whether the disk is nearly full. Then jobs keep no more than the worker needs."""
+    status = os.statvfs(spool)
+    return status.f_bavail < status.f_blocks / 20
+
+
+def make_room(place):
+    """Removes what a job has drawn so far, and most of what it has said: perhaps it has filled the disk."""
+    foreign.remove(place, ("output", "tmp", "clip.tmp"))
+    cut(place, LINE_BYTES)
 
 
 def what_kiln_told(place, events):
@@ -156,6 +174,7 @@ def render(place, given):
     events = place / f"events.{tries}.ndjson"
     begin_try(events)
     code = run_kiln(place, events, given)
+    cut(place, EVENT_BYTES)
     message, again, started = what_kiln_told(place, events)
     if code == 0:
         try:
@@ -248,6 +267,8 @@ def work_on(name, given):
         if not os.path.lexists(place / "job") and not take(name, place, given.spool):
             return
         result = render(place, given)
+        if result and result["outcome"] != "done" and is_full(given.spool):
+            make_room(place)
     except JOB_ERRORS as error:
         result = give_up(name, error, given)
     if result:
@@ -256,7 +277,7 @@ def work_on(name, given):
         except OSError as error:
             if error.errno not in MACHINE:
                 raise
-            foreign.remove(place, ("output", "tmp", "clip.tmp"))  # perhaps the job has filled the disk
+            make_room(place)
             record(name, result, start, given.spool)
 
 
@@ -281,6 +302,8 @@ def recover(given):
     lines = report.read_text(errors="replace").splitlines() if report.exists() else []
     for name in names_in(given.spool / "running"):
         try:
+            if is_full(given.spool) and (given.spool / "running" / name).is_dir():
+                make_room(given.spool / "running" / name)
             recover_job(given.spool / "running" / name, lines, given)
         except JOB_ERRORS as error:
             record(name, give_up(name, error, given), time.monotonic(), given.spool)

@@ -35,7 +35,7 @@ ATTACKS = {
     "terabyte": ("failed", 0, "limit `output`"), "beyond the limit": ("failed", 0, "limit `output`"),
     "up to the limit": ("done", 0, None), "no clip": ("failed", 0, "cannot be opened: No such file"), "hidden files": ("done", 0, None),
     "deep": ("done", 0, None), "never started": ("failed", 1, "kiln does not say why"),
-    "endless line": ("done", 0, None), "long message": ("failed", 3, "aaaa"),
+    "endless line": ("done", 0, None), "many events": ("done", 0, None), "long message": ("failed", 3, "aaaa"),
     "strange events": ("failed", 3, None),
 }
 problems = []
@@ -192,6 +192,8 @@ class Way:
             expect(len(str(found)) < 5000, self.name, attack, "has a result of", len(str(found)), "characters")
             self.look_at_delivery(name, found)
         expect(not self.left(), self.name, "processes outlive their jobs:", self.left())
+        slowest = max(results.values(), key=lambda line: line["seconds"], default={"seconds": 0})
+        expect(slowest["seconds"] < 5 * PROMPT_S, self.name, "a job takes long:", slowest)
         print(f"{self.name}: {len(results)} jobs in {seconds:.1f} s")
 
     def look_at_delivery(self, name, result):
@@ -313,11 +315,13 @@ class Way:
             return
         try:
             (self.spool / "incoming").mkdir()
-            self.bring("a", "fill the disk")
-            self.bring("b", "good")
+            for number, attack in enumerate(("fill the disk", "fill by events", "fill by messages")):
+                self.bring(f"{number} fills", attack)
+                self.bring(f"{number} good", "good")
             self.end(self.begin())
-            found = [(line["job"], line["outcome"]) for line in self.report()]
-            expect({("a", "failed"), ("b", "done")} <= set(found), self.name, "a full disk leads to", found)
+            found = {(line["job"], line["outcome"]) for line in self.report()}
+            expect({(f"{i} {name}", outcome) for name, outcome in (("fills", "failed"), ("good", "done"))
+                    for i in range(3)} <= found, self.name, "a full disk leads to", found)
         finally:
             subprocess.run(["umount", self.spool], check=True)
 

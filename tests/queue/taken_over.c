@@ -239,16 +239,30 @@ static int go_deep(void)
 }
 
 /* Takes all room that the disk has. */
-static int fill_the_disk(void)
+static int fill_by(int file)
 {
     static char block[1 << 16];
-    const int file = open("output/fill", O_WRONLY | O_CREAT | O_APPEND, 0600);
     memset(block, 'x', sizeof block);
     for (size_t size = sizeof block; file >= 0 && size; size /= 2) {
         while (write(file, block, size) > 0)
             continue;
     }
     return 1;
+}
+
+static int fill_the_disk(void)
+{
+    return fill_by(open("output/fill", O_WRONLY | O_CREAT | O_APPEND, 0600));
+}
+
+static int fill_by_events(void)
+{
+    return fill_by(STDOUT_FILENO);
+}
+
+static int fill_by_messages(void)
+{
+    return fill_by(STDERR_FILENO);
 }
 
 /* Takes back what it has told, as if it had never started. */
@@ -260,6 +274,15 @@ static int never_started(void)
 static int endless_line(void)
 {
     return ftruncate(STDOUT_FILENO, (off_t)64 << 30) || write_clip();
+}
+
+/* Writes millions of lines, each of which the worker looks at. */
+static int many_events(void)
+{
+    enum { LINES = 30 << 20 };
+    for (int i = 0; i < LINES; i++)
+        putchar_unlocked(i % 2 ? '\n' : '1');
+    return fflush(stdout) ? 1 : write_clip();
 }
 
 static int long_message(void)
@@ -321,6 +344,9 @@ static const struct attack {
     {"hidden files", hide_files},
     {"deep", go_deep},
     {"fill the disk", fill_the_disk},
+    {"fill by events", fill_by_events},
+    {"fill by messages", fill_by_messages},
+    {"many events", many_events},
     {"never started", never_started},
     {"endless line", endless_line},
     {"long message", long_message},
