@@ -89,7 +89,7 @@ def copy_clip(place, most_bytes, owner):
 
 
 def copy_sparse(source, target, size):
-    """Copies as many bytes, and leaves out blocks of zeros, so that the copy takes no more room. Returns the SHA-256."""
+    """Copies so many bytes, and leaves out blocks of zeros, which then take no room. Returns the SHA-256."""
     digest, left = hashlib.sha256(), size
     while left:
         block = os.read(source, min(left, BLOCK_BYTES))

@@ -325,8 +325,8 @@ def most_output(given):
     text = None
     for key, _, value in (item.partition("=") for item in given.limits.split(",")):
         if key == "service":
-            said = subprocess.run([given.kiln, "help", "limits"], capture_output=True, text=True, errors="replace").stdout
-            row = re.search(r"^output\s+(\S+(?: \S+)?)  ", said, re.MULTILINE)
+            said = subprocess.run([given.kiln, "help", "limits"], stdout=subprocess.PIPE, text=True, errors="replace")
+            row = re.search(r"^output\s+(\S+(?: \S+)?)  ", said.stdout, re.MULTILINE)
             text = row[1] if row else sys.exit("worker: 'kiln help limits' does not tell the limit `output`")
         elif key == "output":
             text = value
