@@ -28,7 +28,8 @@ import jobs
 
 WORKER = jobs.SOURCE / "examples/queue/worker.py"
 PATIENCE_S = 1800
-CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .|job/[^:]+: has another name")
+CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .|job/[^:]+: has another name"
+                   r"|job/[^:]+: is a (FIFO|socket|device)$")
 # The paths that may lie in the spool when all jobs are done.
 KEPT = re.compile(r"lock|session|report\.ndjson|cache(/kiln(/\w+\.\w+)?)?|incoming|running|done|failed"
                   r"|(done|failed)/[^/]+(/(result\.json|events\.\d\.ndjson|messages))?|done/[^/]+/clip\.mp4"
