@@ -59,8 +59,8 @@ def objection(place):
 
 
 def copy_clip(place, most_bytes, owner):
-    """Copies output/clip.mp4 to clip.mp4, a file of the worker's own that appears when it is whole. Returns its size
-    and SHA-256. Nothing of the job may live. Raises OSError with the reason if it is no clip of the job: the job could
+    """Copies output/clip.mp4 to clip.tmp, a file of the worker's own, which is not durable yet. Returns its size and
+    SHA-256. Nothing of the job may live. Raises OSError with the reason if it is no clip of the job: the job could
     write to the folder."""
     with contextlib.ExitStack() as files:
         top = files.enter_context(opened(place, FOLDER))
@@ -82,10 +82,11 @@ def copy_clip(place, most_bytes, owner):
         with contextlib.suppress(FileNotFoundError):
             os.unlink("clip.tmp", dir_fd=top)
         copy = files.enter_context(opened("clip.tmp", os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, top))
-        digest = copy_sparse(clip, copy, status.st_size)
-        os.fsync(copy)
-        os.rename("clip.tmp", "clip.mp4", src_dir_fd=top, dst_dir_fd=top)
-        return {"bytes": status.st_size, "sha256": digest}
+        try:
+            return {"bytes": status.st_size, "sha256": copy_sparse(clip, copy, status.st_size)}
+        except OSError:  # such as a full disk
+            os.unlink("clip.tmp", dir_fd=top)
+            raise
 
 
 def copy_sparse(source, target, size):

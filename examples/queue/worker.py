@@ -7,6 +7,7 @@ SPOOL/report.ndjson. The worker may be killed at any moment: when it starts, it 
 SPOOL/running.
 """
 import argparse
+import concurrent.futures
 import errno
 import fcntl
 import itertools
@@ -44,11 +45,17 @@ def stop(*_):
         now.job.send(signal.SIGTERM)
 
 
-def write_durably(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
+def sync(path):
+    with foreign.opened(path, os.O_RDONLY | os.O_NOFOLLOW) as file:
+        os.fsync(file)
+
+
+def put_in_place(place, names):
+    """Makes files durable, at the same time because each takes a turn of the disk, and then gives them their names."""
+    with concurrent.futures.ThreadPoolExecutor(len(names)) as pool:
+        list(pool.map(sync, [place / name for name in names]))
+    for temporary, name in names.items():
+        (place / temporary).rename(place / name)
 
 
 def add_to_report(spool, line):
@@ -138,7 +145,7 @@ def is_full(spool):
 
 def make_room(place):
     """Removes what a job has drawn so far, and most of what it has said: perhaps it has filled the disk."""
-    foreign.remove(place, ("output", "tmp", "clip.tmp"))
+    foreign.remove(place, ("output", "tmp", "clip.tmp", "clip.mp4"))
     cut(place, LINE_BYTES)
 
 
@@ -205,7 +212,7 @@ def settle(place, spool):
     """Moves a job with a result to `done` or `failed`. Each step can be repeated if the machine goes down."""
     outcome = json.loads((place / "result.json").read_text())["outcome"]
     try:
-        foreign.remove(place, ("output", "tmp", "clip.tmp", *(["job"] if outcome == "done" else [])))
+        foreign.remove(place, ("output", "tmp", "clip.tmp", "job" if outcome == "done" else "clip.mp4"))
     except OSError as error:  # what is left moves along
         print(f"worker: {place.name}: not all was removed: {error}", file=sys.stderr)
     place.rename(free_name(spool / outcome, place.name))
@@ -234,8 +241,9 @@ def record(name, result, start, spool):
     line = json.dumps({"job": name, **result, "seconds": round(time.monotonic() - start, 2),
                        "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}) + "\n"
     if result["outcome"] != "again":
-        write_durably(place / "result.tmp", line)
-        (place / "result.tmp").rename(place / "result.json")
+        (place / "result.tmp").write_text(line)
+        clip = {"clip.tmp": "clip.mp4"} if result["outcome"] == "done" else {}
+        put_in_place(place, {**clip, "result.tmp": "result.json"})
     add_to_report(spool, line)
     if result["outcome"] != "again":
         settle(place, spool)
@@ -278,6 +286,8 @@ def work_on(name, given):
             if error.errno not in MACHINE:
                 raise
             make_room(place)
+            if result["outcome"] == "done":
+                result = failed(0, f"kiln ended well, and yet: {error}")
             record(name, result, start, given.spool)
 
 
