@@ -34,7 +34,7 @@ set(kiln_test_times
         unit.slots versions.0.1"
     "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort
         all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers golden.suite gpu.backdrops
-        report.page tree.flicker"
+        queue.attacks report.page tree.flicker"
     "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.simulate
         tree.tidy/4"
     "80 all.unit.scene_place farm.slurm package.ci package.container"

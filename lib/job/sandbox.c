@@ -315,6 +315,9 @@ static const struct kiln_system_call refused[] = {
     CALL(tkill),
     CALL(migrate_pages),
     CALL(move_pages),
+    /* A supervisor ends a job by its process group, which no process of the job may leave. */
+    CALL(setsid),
+    CALL(setpgid),
     /* Namespaces of the process's own. clone3 is refused with ENOSYS, because a filter cannot see
      * its flags; the C library then calls clone. */
     {.number = SCMP_SYS(clone3), .refusal = ENOSYS},

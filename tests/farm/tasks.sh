@@ -71,7 +71,8 @@ stub squeue <<'END'
 echo "${STATE:-RUNNING}"
 END
 # The stand-in for kiln makes the first run of some commands fail, and then runs kiln. Each failure
-# happens while its file in accidents/ is there: `killed` stands for SIGKILL, `stopped` for SIGTERM
+# happens while its file in accidents/ is there: `planted` stands for a task that was taken over and
+# puts links where later tasks write, `killed` stands for SIGKILL, `stopped` for SIGTERM
 # to the script, `disk` for exit code 6 of a full disk, `always` for SIGKILL in every run of `bake`.
 stub kiln <<'END'
 #!/usr/bin/env bash
@@ -86,6 +87,10 @@ elif meet stopped "render 2"; then
     rm "$work/accidents/stopped"
     kill -TERM $PPID
     exec sleep 20
+elif meet planted "render 1"; then
+    # The sandbox lets a task write to the folder of its output.
+    mkdir -p "$work/clips/taken/clip.mp4.tasks"
+    ln -sf "$work/victim" "$work/clips/taken/clip.mp4.tasks/join.log"
 elif meet disk "join "; then
     rm "$work/accidents/disk"
     exit 6
@@ -165,3 +170,17 @@ done
 [[ $(<"$work/jobs/last") == "$submitted" && ! -e none.mp4.tasks ]] || fail "a job was submitted all the same"
 ! "$submit" tiny.yaml many.mp4 5000 2>/dev/null || fail "submit does not tell that Slurm refused a job"
 [[ $(<"$work/cancelled") == $((submitted + 1)) ]] || fail "cancelled are: $(<"$work/cancelled")"
+
+# A task that was taken over must not put a link in the place of a log that Slurm writes later: the
+# logs lie outside of the folder of the output. The same task succeeds where they lie in it.
+touch "$work/accidents/planted"
+for folder in "$work/clips/taken/clip.mp4.tasks" "$work/clips/-tasks of a clip"; do
+    rm -rf "$work/victim" taken
+    mkdir taken
+    FARM_TASKS=$folder "$submit" tiny.yaml taken/clip.mp4 1 "${long[@]:1}" >/dev/null
+    [[ -s $folder/part-1.log || -e $folder/part-1.ndjson ]] || fail "no logs in $folder"
+    case $folder in
+    *clips/taken*) [[ -e $work/victim ]] || fail "the attack is none" ;;
+    *) [[ ! -e $work/victim ]] || fail "Slurm wrote to a file of somebody else" ;;
+    esac
+done

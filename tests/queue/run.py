@@ -28,9 +28,10 @@ import jobs
 
 WORKER = jobs.SOURCE / "examples/queue/worker.py"
 PATIENCE_S = 1800
-CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .|job/[^:]+: has another name")
+CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .|job/[^:]+: has another name"
+                   r"|job/[^:]+: is a (FIFO|socket|device)$")
 # The paths that may lie in the spool when all jobs are done.
-KEPT = re.compile(r"lock|report\.ndjson|cache(/kiln(/\w+\.\w+)?)?|incoming|running|done|failed"
+KEPT = re.compile(r"lock|session|report\.ndjson|cache(/kiln(/\w+\.\w+)?)?|incoming|running|done|failed"
                   r"|(done|failed)/[^/]+(/(result\.json|events\.\d\.ndjson|messages))?|done/[^/]+/clip\.mp4"
                   r"|failed/[^/]+/(job(/.*)?|secret\.txt)")
 CACHE_BYTES = 512 << 20  # the limit of the cache that docs/service.md promises
@@ -235,6 +236,7 @@ class Queue:
 
 # A program in place of kiln, which misbehaves in the way that the job's name says.
 DOUBLE = """#!/bin/sh
+if [ "$1" = help ]; then echo 'output        64 GiB      as kiln says it'; exit; fi
 echo '{"event": "started"}'
 case $PWD in
 */disk) echo '{"event": "error", "message": "no room"}'; echo '{"event": "ended", "code": 6, "again": "again"}'; exit 6 ;;
@@ -260,7 +262,7 @@ def play_double(work, user):
     (spool / "incoming/a file").touch()
     (spool / "running/empty").mkdir(parents=True)
     (spool / "running/known/output").mkdir(parents=True)
-    (spool / "running/known/output/clip.mp4").touch()
+    (spool / "running/known/clip.mp4").touch()
     for name, tries in (("begun", 1), ("given up", 3)):  # the worker was killed during the last try
         (spool / "running" / name / "job").mkdir(parents=True)
         for i in range(tries):

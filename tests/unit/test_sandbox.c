@@ -179,6 +179,38 @@ static bool meet_the_limit_of_memory(void)
            WEXITSTATUS(status) == 1;
 }
 
+/* Returns whether a process that this one starts can make a call; the call changes that process
+ * alone. */
+static bool child_can(bool (*call)(void))
+{
+    const pid_t child = fork();
+    int status = 1;
+    if (child == 0)
+        _exit(call() ? 0 : 1);
+    return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+static bool call_setsid(void)
+{
+    return setsid() > 0;
+}
+
+static bool call_setpgid(void)
+{
+    return setpgid(0, 0) == 0;
+}
+
+/* A supervisor ends a job by its process group, and finds what is left by its session. */
+static bool leave_the_session(void)
+{
+    return child_can(call_setsid);
+}
+
+static bool leave_the_group(void)
+{
+    return child_can(call_setpgid);
+}
+
 /* ---- asking ---------------------------------------------------------------------------------- */
 
 static bool enter(void)
@@ -274,6 +306,8 @@ static void nothing_else_can_be_done(void **state)
     assert_false(succeeds(reach_processes));
     assert_false(succeeds(change_others));
     assert_false(succeeds(make_devices));
+    assert_false(succeeds(leave_the_session));
+    assert_false(succeeds(leave_the_group));
 }
 
 /* The attempts above are no attempts unless they work without a sandbox. */
@@ -281,7 +315,8 @@ static void all_of_it_works_outside(void **state)
 {
     (void)state;
     assert_true(read_outside() && write_outside() && change_outside() && reach_programs() &&
-                write_to_cache() && open_sockets() && start_programs());
+                write_to_cache() && open_sockets() && start_programs() && leave_the_session() &&
+                leave_the_group());
     unlink("/tmp/kiln-sandbox");
 }
 
