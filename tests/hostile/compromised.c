@@ -181,9 +181,10 @@ static void expect_faults(void)
 static bool take_uncounted(void)
 {
     char here;
-    volatile uintptr_t deep = (uintptr_t)&here - ((size_t)64 << 20);
+    volatile char *volatile top = &here;
+    const ptrdiff_t depth = (ptrdiff_t)64 << 20;
     if (sigsetjmp(before_fault, 0) == 0) {
-        *(volatile char *)deep = 1;
+        top[-depth] = 1;
         return true;
     }
     return mmap(NULL, (size_t)1 << 40, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1,

@@ -84,7 +84,7 @@ static const char *const words[][2] = {
     {"a\nrm -rf ~\n", "$'a\\012rm -rf ~\\012'"},
     {"\x03'\\\x15", "$'\\003\\'\\\\\\025'"},
     {"\xff", "$'\\377'"},
-    {"\xe2\x80\xae"
+    {"\xe2\x80\xae" /* NOLINT(misc-misleading-bidirectional): it is what is tested */
      "a",
      "$'\\342\\200\\256a'"},
 };
@@ -99,7 +99,8 @@ static void shell_prints(const char *shell, const char *word, char out[256])
     struct kiln_text whole = {0};
     kiln_text_add_shell_word(&whole, quoted.data);
     snprintf(command, sizeof command, "exec %s -c %s", shell, whole.data);
-    FILE *pipe = popen(command, "r"); /* sh: the outer word is plain, since it has no controls */
+    /* sh: the outer word is plain, since it has no controls */
+    FILE *pipe = popen(command, "r"); /* NOLINT(cert-env33-c): a command of this test */
     assert_non_null(pipe);
     const size_t size = fread(out, 1, 255, pipe);
     out[size] = '\0';
