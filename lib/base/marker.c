@@ -59,3 +59,19 @@ bool kiln_marker_starts_line(char c, bool starts_line)
     return c == '\n' || c == '\r' ||
            (starts_line && (c == ' ' || c == '\t' || c == '\v' || c == '\f'));
 }
+
+void kiln_marker_write(FILE *out, const char *text,
+                       size_t (*put)(FILE *out, const char *text, const void *how), const void *how)
+{
+    bool starts_line = true;
+    while (*text) {
+        const char *const end = text + kiln_marker_break(text, starts_line);
+        const bool is_marker = end > text;
+        starts_line = kiln_marker_starts_line(*text, starts_line);
+        do {
+            text += put(out, text, how);
+        } while (text < end);
+        if (is_marker)
+            fputc(' ', out);
+    }
+}

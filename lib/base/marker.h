@@ -16,4 +16,10 @@ size_t kiln_marker_break(const char *text, bool starts_line);
  * White space, whether or not it ends a line, keeps a start; a line end makes one. */
 bool kiln_marker_starts_line(char c, bool starts_line);
 
+/* Writes a text with a blank in each marker, which breaks it. `put` writes the character at the
+ * start of a text as the output needs it, and returns the character's bytes, 1 or more. */
+void kiln_marker_write(FILE *out, const char *text,
+                       size_t (*put)(FILE *out, const char *text, const void *how),
+                       const void *how);
+
 #endif

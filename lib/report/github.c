@@ -15,7 +15,7 @@
 
 /* Writes a character with those in `special` escaped as GitHub reads them (%0A), and others that
  * would act on the text around them as the program shows them ("\x1b"). Returns its bytes. */
-static size_t write_character(FILE *out, const char *text, const char *special)
+static size_t write_character(FILE *out, const char *text, const void *special)
 {
     uint32_t character;
     char escaped[12];
@@ -30,31 +30,15 @@ static size_t write_character(FILE *out, const char *text, const char *special)
     return length > 0 ? length : 1;
 }
 
-/* Writes a text of any origin. A blank breaks markers of CI servers. */
-static void write_escaped(FILE *out, const char *text, const char *special)
-{
-    bool starts_line = true;
-    while (*text) {
-        const char *const end = text + kiln_marker_break(text, starts_line);
-        const bool is_marker = end > text;
-        starts_line = kiln_marker_starts_line(*text, starts_line);
-        do {
-            text += write_character(out, text, special);
-        } while (text < end);
-        if (is_marker)
-            fputc(' ', out);
-    }
-}
-
 static void write_message(FILE *out, const char *text)
 {
-    write_escaped(out, text, "%\r\n");
+    kiln_marker_write(out, text, write_character, "%\r\n");
 }
 
 /* Writes a text of a property, which ':' and ',' would end. */
 static void write_property(FILE *out, const char *text)
 {
-    write_escaped(out, text, "%\r\n:,");
+    kiln_marker_write(out, text, write_character, "%\r\n:,");
 }
 
 /* Writes the command up to its message, with the file that the annotation is for; file is "" where

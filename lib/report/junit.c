@@ -44,8 +44,9 @@ static const char *entity_of(char c)
 /* Writes a character of an attribute's value, or of content, in which line feeds and tabs stay as
  * they are. What XML cannot hold becomes U+FFFD: to leave it out could join two halves of a marker.
  * Returns the bytes of the character. */
-static size_t write_character(FILE *out, const char *text, bool attribute)
+static size_t write_character(FILE *out, const char *text, const void *is_attribute)
 {
+    const bool attribute = *(const bool *)is_attribute;
     const size_t length = kiln_text_character_length(text);
     const char *entity = !attribute && (*text == '\n' || *text == '\t') ? NULL : entity_of(*text);
     if (length == 0 || !is_allowed((const unsigned char *)text))
@@ -57,21 +58,11 @@ static size_t write_character(FILE *out, const char *text, bool attribute)
     return length > 0 ? length : 1;
 }
 
-/* Writes a text as an attribute's value or as content. A blank breaks markers of CI servers, which
- * act on what an XML parser makes of the text. */
+/* Writes a text as an attribute's value or as content. Markers are broken, since CI servers act on
+ * what an XML parser makes of the text. */
 static void write_xml(FILE *out, const char *text, bool attribute)
 {
-    bool starts_line = true;
-    while (*text) {
-        const char *const end = text + kiln_marker_break(text, starts_line);
-        const bool is_marker = end > text;
-        starts_line = kiln_marker_starts_line(*text, starts_line);
-        do {
-            text += write_character(out, text, attribute);
-        } while (text < end);
-        if (is_marker)
-            fputc(' ', out);
-    }
+    kiln_marker_write(out, text, write_character, &attribute);
 }
 
 static void write_attribute(FILE *out, const char *name, const char *value)
