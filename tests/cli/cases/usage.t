@@ -339,7 +339,7 @@ $ kiln help compare
 1|                              black. It must have the same size.
 1|      --layer LAYER           Layer of EXR files to compare, such as beauty,
 1|                              depth or fire. Default: all layers.
-1|      --data-limit N          The largest difference that passes of two numbers
+1|      --data-limit NUMBER     The largest difference that passes of two numbers
 1|                              in layers of data, such as depths. Default: 0.
 1|      --range auto|ldr|hdr    How FLIP judges light: ldr clamps it at white, hdr
 1|                              judges several exposures of the reference.
