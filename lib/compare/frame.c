@@ -232,7 +232,8 @@ static bool compare_data(struct comparing *c, const struct kiln_mask *mask,
     struct shown shown = {.errors = NULL};
     if (!is_drawn(c))
         return true;
-    if (!kiln_values_show(images, masked, shown.pictures, &shown.errors, c->error))
+    if (!kiln_values_show(images, masked, difference.largest, shown.pictures, &shown.errors,
+                          c->error))
         return false;
     keep_shown(c, &shown, layer);
     return true;

@@ -130,14 +130,12 @@ static float part_of(double found, double largest)
 }
 
 bool kiln_values_show(const struct kiln_asset_image *const images[2], const uint8_t *masked,
-                      struct kiln_compare_picture *pictures[2], float **errors,
+                      double largest, struct kiln_compare_picture *pictures[2], float **errors,
                       struct kiln_error *error)
 {
     const size_t pixels = (size_t)images[0]->width * images[0]->height;
     struct range range = {INFINITY, -INFINITY};
-    struct kiln_value_difference difference;
     uint64_t ignored = 0;
-    kiln_values_compare(images[0], images[1], masked, &difference);
     *errors = malloc(pixels * sizeof **errors);
     for (int i = 0; i < 2; i++)
         widen(&range, images[i]);
@@ -153,7 +151,7 @@ bool kiln_values_show(const struct kiln_asset_image *const images[2], const uint
     for (size_t i = 0; i < pixels; i++) {
         const bool counts = !masked || !masked[i];
         const double found = counts ? compare_pixel(images, i, &ignored) : 0;
-        (*errors)[i] = part_of(found, difference.largest);
+        (*errors)[i] = part_of(found, largest);
     }
     return true;
 }

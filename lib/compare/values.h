@@ -20,9 +20,10 @@ void kiln_values_compare(const struct kiln_asset_image *reference,
 
 /* Makes pictures of two layers of one size, in levels alone: the least finite number of both is
  * black, the largest is white. *errors, which the caller frees, gets a number of 0 to 1 a pixel:
- * its difference, as a part of the largest. False with KILN_DEVICE_FAILED when memory is short. */
+ * its difference, as a part of `largest`, which kiln_values_compare has found. False with
+ * KILN_DEVICE_FAILED when memory is short. */
 bool kiln_values_show(const struct kiln_asset_image *const images[2], const uint8_t *masked,
-                      struct kiln_compare_picture *pictures[2], float **errors,
+                      double largest, struct kiln_compare_picture *pictures[2], float **errors,
                       struct kiln_error *error);
 
 #endif

@@ -97,14 +97,14 @@ static bool make_ray(const struct kiln_mesh *mesh, uint32_t triangle, struct kil
 
 bool kiln_mesh_thinnest(const struct kiln_mesh *mesh, double *thinnest)
 {
-    struct kiln_mesh *outwards = volume_of(mesh) < 0.0 ? kiln_mesh_copy(mesh) : NULL;
-    const struct kiln_mesh *measured = mesh;
-    if (outwards) {
+    struct kiln_mesh *outwards = NULL; /* a copy of a mesh that is inside out */
+    if (volume_of(mesh) < 0.0) {
+        outwards = kiln_mesh_copy(mesh);
+        if (!outwards)
+            return false;
         kiln_mesh_face_outwards(outwards);
-        measured = outwards;
-    } else if (volume_of(mesh) < 0.0) {
-        return false;
     }
+    const struct kiln_mesh *measured = outwards ? outwards : mesh;
     struct kiln_nearest *tree = kiln_nearest_create(measured);
     *thinnest = INFINITY;
     for (uint32_t i = 0; tree && i < measured->triangle_count; i++) {
