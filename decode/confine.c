@@ -52,7 +52,7 @@ bool decode_out_of_memory(struct kiln_error *error)
                           (unsigned long long)(own_limit >> 20));
 }
 
-/* What the process takes before it decodes, in bytes. */
+/* The struct holds the memory that the process takes before it decodes, in bytes. */
 struct in_use {
     uint64_t space; /* the size of its address space */
     uint64_t data;  /* what RLIMIT_DATA counts */

@@ -25,7 +25,7 @@ bool decode_draco_is_ready(void)
     return module.kiln_draco_read != NULL;
 }
 
-/* What is asked for of the attributes of glTF. */
+/* The enum numbers the attributes of glTF that the module is asked for. */
 enum { POSITION, NORMAL, TEXCOORD, JOINTS, WEIGHTS, COLOR, SECOND_TEXCOORD, ATTRIBUTES };
 
 static const struct {

@@ -13,7 +13,7 @@ extern "C" {
 struct kiln_draco_attribute {
     uint32_t id;         /* in the stream */
     uint32_t components; /* that are wanted */
-    /* What integers that are not quantised are divided by; 0: they stay what they are. */
+    /* integers that are not quantised are divided by it; 0: they stay what they are */
     double most;
     float *values; /* result, of all points; free releases it; NULL: the stream has no such one */
 };

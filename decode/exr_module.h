@@ -20,7 +20,7 @@ struct kiln_openexr_channel {
     int whole;        /* as uint32_t; else as float */
 };
 
-/* What becomes of the samples of a pixel of a deep part. */
+/* The enum says what becomes of the samples of a pixel of a deep part. */
 enum kiln_openexr_deep {
     KILN_OPENEXR_NOT_DEEP,
     KILN_OPENEXR_FLATTEN, /* they cover each other, from front to back */

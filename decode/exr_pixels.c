@@ -9,7 +9,7 @@
 #include "exr.h"
 #include "values.h"
 
-/* Where the samples of a channel go. */
+/* The struct says where the samples of a channel go. */
 struct target {
     struct exr_reading *reading; /* NULL: nowhere */
     enum exr_role role;

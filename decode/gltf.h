@@ -174,7 +174,7 @@ struct gltf_target {
     float (*positions)[3], (*normals)[3]; /* differences; NULL: none */
 };
 
-/* What a primitive has. Normals and uvs are NULL where there are none. */
+/* The struct holds a primitive as it is read. Normals and uvs are NULL where there are none. */
 struct gltf_primitive {
     uint32_t vertex_count, triangle_count, target_count;
     float (*positions)[3], (*normals)[3], (*uvs)[2];

@@ -204,7 +204,7 @@ const json_t *gltf_meshopt_of(const struct gltf *g, uint32_t view)
         found = gltf_extension(json, "EXT_meshopt_compression");
     if (!found || g->needs_meshopt)
         return found;
-    /* Where the file does not require the extension, the view's own buffer may have the data. */
+    /* The view's own buffer may have the data if the file does not require the extension. */
     uint32_t buffer = 0;
     const bool has = gltf_index(gltf_member(json, "buffer"), &buffer) &&
                      buffer < g->lists[GLTF_BUFFERS].count && g->buffers[buffer].bytes;

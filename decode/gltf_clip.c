@@ -50,7 +50,7 @@ struct clips {
     struct gltf *g;
     const struct gltf_moved *moved;
     struct kiln_skin_result *skin;
-    /* Of the nodes of the result, the channel in the clip at hand, from 1. */
+    /* the channel, from 1, that each node of the result has in the clip at hand */
     uint32_t *channels;
     uint32_t *morph_channels; /* of the morphs, in the same way */
     const json_t *samplers;   /* of the clip at hand */

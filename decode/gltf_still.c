@@ -13,7 +13,7 @@ struct still {
     struct gltf *g;
     struct decode_model *model;
     size_t mesh_capacity, part_capacity, triangle_count;
-    /* Of each mesh of the file, where its primitives are among the model's meshes, from 1. */
+    /* the place, from 1, of each mesh's primitives among the model's meshes */
     size_t *made;
     uint32_t *ranks;       /* of the materials of the file; the last: of none */
     double (*bones)[3][4]; /* of the skin of the node at hand, to the file's space; NULL: none */

@@ -39,7 +39,7 @@ static void get_pair(const json_t *array, double otherwise, double pair[2])
         pair[i] = number_of(gltf_item(array, i), otherwise);
 }
 
-/* What an extension says of texture coordinates. */
+/* The struct holds what an extension says of texture coordinates. */
 struct transform {
     double offset[2], scale[2], sine, cosine;
 };

@@ -16,8 +16,8 @@ struct decode_model_mesh {
     float (*positions)[3];
     float (*normals)[3]; /* of any length; NULL: the file has none */
     float (*uvs)[2];     /* NULL: none */
-    /* Those of a mesh that is read with its materials: colours of vertices and a second set of
-     * texture coordinates. NULL: none. */
+    /* colours of vertices and a second set of texture coordinates, of a mesh that is read with its
+     * materials; NULL: none */
     float (*colors)[4], (*second_uvs)[2];
     uint32_t (*triangles)[3];
     uint32_t material; /* by which the triangles of a surface are ordered */

@@ -13,7 +13,7 @@
 
 #include "looks.h"
 
-/* What was read of the material at hand. */
+/* The struct holds what was read of the material at hand. */
 struct entry {
     float diffuse[3], specular[3], emission[3];
     float exponent, opacity, transparency, roughness, metalness; /* NaN: it does not say */

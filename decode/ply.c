@@ -33,7 +33,7 @@ static const struct {
     [FLOAT32] = {"float", "float32", 4, true}, [FLOAT64] = {"double", "float64", 8, true},
 };
 
-/* What the numbers of a vertex are, in the order in which they are kept. */
+/* The enum lists the numbers of a vertex that kiln reads, in the order in which they are kept. */
 enum role {
     X,
     Y,

@@ -38,7 +38,8 @@ struct part {
     const double (*rows)[4];
 };
 
-/* What a corner has besides if materials are wanted. It is kept apart, since corners are many. */
+/* The struct holds what a corner has besides if materials are wanted. It is kept apart, since
+ * corners are many. */
 struct extra {
     float color[4], second_uv[2];
 };

@@ -1,5 +1,5 @@
-/* This file describes the materials of a mesh for kiln check. Emission
- * is left out where there is none, and alpha where it counts for nothing. */
+/* This file describes the materials of a mesh for kiln check. Emission is left out where there is
+ * none, and alpha where it counts for nothing. */
 #include "scene/mesh_looks.h"
 
 #include <inttypes.h>

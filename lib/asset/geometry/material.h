@@ -42,8 +42,8 @@ enum kiln_alpha_mode {
     KILN_ALPHA_BLEND,
 };
 
-/* What the textures of a material are for. The colours of the first and of emission are sRGB, the
- * numbers of others are data. */
+/* The enum lists the uses of a material's textures. The colours of the first and of emission are
+ * sRGB, the numbers of others are data. */
 enum kiln_material_use {
     KILN_USE_COLOR, /* multiplies the base colour; its alpha, too, unless there is KILN_USE_ALPHA */
     KILN_USE_ALPHA, /* multiplies alpha */
