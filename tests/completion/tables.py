@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 NOTHING_TO_OFFER = {
-    "10s|N", "I/N|auto|auto/N", "COLUMNSxROWS", "FACTOR", "I/N", "LAYER", "LENGTH", "LEVELS", "N", "PIXELS", "RANGES", "RATE", "S", "STOPS", "TIME",
+    "10s|N", "I/N|auto|auto/N", "COLUMNSxROWS", "FACTOR", "I/N", "LAYER", "LENGTH", "LEVELS", "N", "NUMBER", "PIXELS", "RANGES", "RATE", "S", "STOPS", "TIME",
     "TEXT", "WxH", "X,Y,WxH",
     "PATTERN", "NAME",  # names of tests, offered where there are results (tests/cli/cases/test.t)
 }
