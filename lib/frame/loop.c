@@ -219,7 +219,7 @@ static bool check_limits(const struct kiln_loop *loop, struct kiln_error *error)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
                               "output.size: found %u x %u pixels; %s draws up to %d a side",
                               scene->width, scene->height, device->name, device->max_texture_size);
-    uint64_t particles = kiln_scene_facts(scene).particle_capacity;
+    uint64_t particles = kiln_work_particles(scene);
     uint64_t most = (uint64_t)device->max_storage_block_bytes / sizeof(struct kiln_particle);
     return device->software || particles <= most ||
            kiln_error_set(error, KILN_DEVICE_FAILED,

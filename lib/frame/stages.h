@@ -4,6 +4,7 @@
 #define KILN_FRAME_STAGES_H
 
 #include "asset/atlas/atlas.h"
+#include "base/footprint.h"
 #include "draw/backdrop/backdrop.h"
 #include "draw/moment/between.h"
 #include "draw/solids/solids.h"
@@ -74,6 +75,9 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                       const struct kiln_scene *scene, const struct kiln_stages_params *params,
                       struct kiln_error *error);
 void kiln_stages_finish(struct kiln_stages *stages);
+
+/* Adds the memory of all stages of the device `cpu`, and of a picture of 8 bits without layers. */
+void kiln_stages_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 
 /* Runs every stage from sort to particles for a moment of a frame: 0 to
  * kiln_scene_moment_count() - 1, in order. pool: the state after instant.step steps. before: the

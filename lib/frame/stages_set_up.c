@@ -2,6 +2,8 @@
  * they draw into. */
 #include "base/cache.h"
 #include "base/error.h"
+#include "draw/solids/solids_cpu.h"
+#include "draw/sprites/particles_cpu.h"
 #include "frame/stages.h"
 
 /* Returns the format of the render targets. Blending into 16-bit floats makes the result darker by
@@ -60,12 +62,13 @@ static bool init_targets(struct kiln_stages *s, struct kiln_error *error)
                                  error);
 }
 
-static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
+/* Lists what each system asks of the atlas. */
+static void list_requests(const struct kiln_scene *scene,
+                          struct kiln_atlas_request requests[KILN_MAX_SYSTEMS])
 {
     static const char *const plain = "builtin:spark";
-    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < s->scene->system_count; i++) {
-        const struct kiln_look *look = &s->scene->systems[i].look;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
         requests[i] =
             (struct kiln_atlas_request){.sources = look->atlas,
                                         .count = look->atlas_count,
@@ -73,12 +76,18 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                                         .rows = look->rows,
                                         .motion = look->motion,
                                         .motion_full = {look->motion_full[0], look->motion_full[1]},
-                                        .loader = s->scene->loader};
+                                        .loader = scene->loader};
         if (look->shape != KILN_SHAPE_BILLBOARD) /* such particles show no texture and get the
                                                   * smallest one */
             requests[i] = (struct kiln_atlas_request){
                 .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
     }
+}
+
+static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
+{
+    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
+    list_requests(s->scene, requests);
     char cache[KILN_PATH_SIZE];
     const bool cached = kiln_cache_folder(cache);
     return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count,
@@ -229,6 +238,40 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
         return true;
     kiln_stages_finish(stages);
     return false;
+}
+
+/* Adds the images that init_targets makes. An image takes memory when it is first drawn. */
+static void add_targets(const struct kiln_scene *scene, bool solids,
+                        struct kiln_footprint *footprint)
+{
+    const uint64_t pixels = (uint64_t)scene->width * scene->height;
+    const bool separate = scene->post.compose == KILN_COMPOSE_SEPARATE;
+    const bool glows = needs_glow(scene, false) || solids; /* solids draw their glow in any case */
+    const uint64_t colors = 2u + solids + separate + glows;
+    const uint64_t depths = 1u + solids;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels,
+                       colors * 4 * sizeof(float) + depths * sizeof(float));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, 4 * sizeof(uint8_t));
+}
+
+void kiln_stages_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
+    list_requests(scene, requests);
+    const uint64_t layers = kiln_atlas_footprint(requests, scene->system_count, footprint);
+    const bool solids = opaque_systems(scene) != 0;
+    add_targets(scene, solids, footprint);
+    kiln_moment_footprint(scene, footprint);
+    kiln_lighting_footprint(scene, footprint);
+    kiln_backdrop_footprint(scene, footprint);
+    if (solids)
+        kiln_solids_cpu_footprint(scene, footprint);
+    kiln_raster_cpu_footprint(scene, layers, footprint);
+    kiln_coarse_footprint(scene, footprint);
+    if (kiln_scene_moment_count(scene) > 1)
+        kiln_shutter_footprint(scene, footprint);
+    kiln_bloom_footprint(scene, footprint);
+    kiln_composite_footprint(scene, footprint);
 }
 
 void kiln_stages_finish(struct kiln_stages *stages)

@@ -33,6 +33,14 @@ void kiln_canvas_finish(struct kiln_canvas *canvas)
     *canvas = (struct kiln_canvas){.edge = 0};
 }
 
+void kiln_canvas_footprint(const struct kiln_canvas_shape *shape, struct kiln_footprint *footprint)
+{
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, (uint64_t)shape->edge * shape->edge,
+                       sizeof *(struct kiln_canvas){0}.texels);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, shape->slot_count,
+                       sizeof *(struct kiln_canvas){0}.pending);
+}
+
 void kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from)
 {
     assert(to->edge == from->edge && to->slot_count == from->slot_count);

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "base/footprint.h"
 #include "kiln.h"
 
 /* A splat of paint that a particle leaves around a position, in the mesh's own space. If its
@@ -42,6 +43,9 @@ struct kiln_canvas_shape {
 bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_count,
                       struct kiln_error *error);
 void kiln_canvas_finish(struct kiln_canvas *canvas);
+
+/* Adds the memory of a canvas. */
+void kiln_canvas_footprint(const struct kiln_canvas_shape *shape, struct kiln_footprint *footprint);
 
 /* Copies a canvas to another canvas of the same size. */
 void kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from);

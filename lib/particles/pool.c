@@ -49,6 +49,17 @@ void kiln_pool_finish(struct kiln_pool *pool)
     *pool = (struct kiln_pool){.system_count = 0};
 }
 
+void kiln_pool_footprint(const struct kiln_pool_layout *layout, struct kiln_footprint *footprint)
+{
+    for (uint32_t i = 0; i < layout->system_count; i++) {
+        const size_t spin = layout->spins[i] ? sizeof(struct kiln_spin) : 0;
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, layout->capacities[i],
+                           sizeof(struct kiln_particle) + spin);
+    }
+    for (uint32_t i = 0; i < layout->canvas_count; i++)
+        kiln_canvas_footprint(&layout->canvases[i], footprint);
+}
+
 static bool copy_buffer(struct kiln_buffer *to, struct kiln_buffer *from, struct kiln_error *error)
 {
     if (from->size == 0)

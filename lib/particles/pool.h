@@ -51,6 +51,9 @@ struct kiln_pool_layout {
  * failure. */
 bool kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device,
                     const struct kiln_pool_layout *layout, struct kiln_error *error);
+
+/* Adds the memory of a pool on the host. */
+void kiln_pool_footprint(const struct kiln_pool_layout *layout, struct kiln_footprint *footprint);
 void kiln_pool_finish(struct kiln_pool *pool);
 
 /* Copies particles, spins and paint to another pool of the same layout, in host memory. */

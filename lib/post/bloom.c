@@ -31,6 +31,12 @@ struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
     return stage;
 }
 
+void kiln_bloom_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    if (scene->post.bloom != KILN_BLOOM_NONE)
+        kiln_bloom_cpu_footprint(scene, footprint);
+}
+
 void kiln_bloom_destroy(struct kiln_bloom_stage **stage)
 {
     if (!*stage)

@@ -3,6 +3,7 @@
 #ifndef KILN_POST_BLOOM_H
 #define KILN_POST_BLOOM_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "gpu/image.h"
 #include "scene/scene.h"
@@ -26,6 +27,9 @@ struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            const struct kiln_bloom_params *params,
                                            struct kiln_error *error);
+
+/* Adds the memory of the technique `cpu`. */
+void kiln_bloom_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_bloom_destroy(struct kiln_bloom_stage **stage);
 
 struct kiln_bloom_inputs {

@@ -57,6 +57,11 @@ static bool fill_columns(struct kiln_bloom_cpu *stage)
     return true;
 }
 
+static size_t row_length_of(uint32_t width)
+{
+    return (size_t)width + (size_t)(2 * KILN_BLOOM_EDGE);
+}
+
 static bool init(struct kiln_bloom_cpu *stage, struct kiln_device *device, GLenum format)
 {
     const struct kiln_image *source = stage->source;
@@ -68,7 +73,7 @@ static bool init(struct kiln_bloom_cpu *stage, struct kiln_device *device, GLenu
             kiln_image_init(&stage->small[i][k], device, level->width, level->height, format,
                             "bloom");
     }
-    stage->pass.row_length = (size_t)source->width + (size_t)(2 * KILN_BLOOM_EDGE);
+    stage->pass.row_length = row_length_of(source->width);
     size_t quads = kiln_threads_count(stage->threads) * stage->pass.row_length;
     stage->pass.rows = aligned_alloc(64, (quads * sizeof(kiln_quad) / 64 + 1) * 64);
     return stage->pass.rows && (stage->plan.kind == KILN_BLOOM_THESIS || fill_columns(stage));
@@ -95,6 +100,18 @@ struct kiln_bloom_cpu *kiln_bloom_cpu_create(struct kiln_device *device,
     }
     stage->rows = KILN_SIMD_PICK(kiln_bloom_rows, simd);
     return stage;
+}
+
+void kiln_bloom_cpu_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    struct kiln_bloom_plan plan = {0};
+    kiln_bloom_plan_init(&plan, scene, scene->width, scene->height);
+    for (uint32_t i = 0; i < plan.level_count; i++)
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE,
+                           (uint64_t)plan.levels[i].width * plan.levels[i].height,
+                           2 * 4 * sizeof(float));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, footprint->threads,
+                       row_length_of(scene->width) * sizeof(kiln_quad));
 }
 
 void kiln_bloom_cpu_destroy(struct kiln_bloom_cpu **stage)

@@ -3,6 +3,7 @@
 #ifndef KILN_POST_BLOOM_CPU_H
 #define KILN_POST_BLOOM_CPU_H
 
+#include "base/footprint.h"
 #include "post/bloom.h"
 
 struct kiln_bloom_cpu;
@@ -11,6 +12,9 @@ struct kiln_bloom_cpu *kiln_bloom_cpu_create(struct kiln_device *device,
                                              const struct kiln_scene *scene,
                                              const struct kiln_bloom_params *params,
                                              struct kiln_error *error);
+
+/* Adds the memory of the bloom of a scene. */
+void kiln_bloom_cpu_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_bloom_cpu_destroy(struct kiln_bloom_cpu **stage);
 
 struct kiln_image *kiln_bloom_cpu_run(struct kiln_bloom_cpu *stage,

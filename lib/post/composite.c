@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "post/composite_cpu.h"
 #include "post/composite_gl.h"
+#include "post/magnify.h"
 
 struct kiln_composite_stage { /* exactly one of the two is not NULL */
     struct kiln_composite_gl *gl;
@@ -29,6 +30,15 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
     if (!stage->cpu && !stage->gl)
         kiln_composite_destroy(&stage);
     return stage;
+}
+
+void kiln_composite_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const uint64_t plane = scene->width + (uint64_t)(2 * KILN_MAGNIFY_EDGE);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, (uint64_t)scene->width * scene->height,
+                       4 * sizeof(uint8_t));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, footprint->threads,
+                       3 * plane * sizeof(float));
 }
 
 void kiln_composite_destroy(struct kiln_composite_stage **stage)

@@ -3,6 +3,7 @@
 #ifndef KILN_POST_COMPOSITE_H
 #define KILN_POST_COMPOSITE_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "gpu/image.h"
 #include "scene/scene.h"
@@ -28,6 +29,9 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
                                                    const struct kiln_scene *scene,
                                                    const struct kiln_composite_params *params,
                                                    struct kiln_error *error);
+
+/* Adds the memory of the technique `cpu` for pictures of 8 bits without layers. */
+void kiln_composite_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_composite_destroy(struct kiln_composite_stage **stage);
 
 struct kiln_composite_inputs {

@@ -37,6 +37,13 @@ struct kiln_shutter_stage *kiln_shutter_create(struct kiln_device *device,
     return stage;
 }
 
+void kiln_shutter_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const uint64_t sums = scene->post.bloom != KILN_BLOOM_NONE ? 2 : 1;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, (uint64_t)scene->width * scene->height,
+                       sums * 4 * sizeof(float));
+}
+
 void kiln_shutter_destroy(struct kiln_shutter_stage **stage)
 {
     if (!*stage)

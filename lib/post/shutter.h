@@ -3,6 +3,7 @@
 #ifndef KILN_POST_SHUTTER_H
 #define KILN_POST_SHUTTER_H
 
+#include "base/footprint.h"
 #include "post/composite.h"
 
 /* Names the sums: the composed picture, and the images that later stages or layers ask for. */
@@ -27,6 +28,9 @@ struct kiln_shutter_params {
 struct kiln_shutter_stage *kiln_shutter_create(struct kiln_device *device,
                                                const struct kiln_shutter_params *params,
                                                struct kiln_error *error);
+
+/* Adds the memory of the sums of frames of several moments, without those of layers. */
+void kiln_shutter_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_shutter_destroy(struct kiln_shutter_stage **stage);
 
 /* kiln_shutter_add_composed adds `weight` times the composed scene, particles and fire of a moment

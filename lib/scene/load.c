@@ -1,5 +1,7 @@
 /* This file loads a scene from a file or a text: it parses the text, applies overrides, reads the
  * options, validates them, and takes the scene's hash. */
+#include "scene/load.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +20,7 @@
 #include "scene/place.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
+#include "scene/work.h"
 
 /* The limits whose counts start at 0 again with each scene of a job. */
 static const enum kiln_limit OF_A_SCENE[] = {KILN_LIMIT_asset_pixels, KILN_LIMIT_asset_bytes,
@@ -86,7 +89,7 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 }
 
 static bool build(struct kiln_reader *reader, const char *text, size_t size,
-                  const struct kiln_scene_params *params)
+                  const struct kiln_scene_params *params, kiln_scene_estimate *estimate)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
     struct kiln_node *root =
@@ -112,8 +115,8 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         kiln_budget_reset(scene->budget, OF_A_SCENE[i]);
     if (!kiln_read_members(reader, kiln_options_root, root, scene) || !keep_keys(reader, scene))
         return false;
-    if (!kiln_validate(reader, root) || !take_hash(scene, reader->error) ||
-        !kiln_budget_is_kept(scene->budget, reader->error))
+    if (!kiln_validate(reader, root) || !kiln_work_check(reader, root, estimate) ||
+        !take_hash(scene, reader->error) || !kiln_budget_is_kept(scene->budget, reader->error))
         return false;
     kiln_small_steps_warn(reader, root, &params->log);
     kiln_mesh_notes_warn(reader, root, &params->log);
@@ -151,7 +154,8 @@ static bool add_own_file(struct kiln_scene *scene, const struct origin_file *fil
 /* file: NULL for a scene that is no file. */
 static struct kiln_scene *create(const char *text, size_t size, const char *name,
                                  const struct origin_file *file,
-                                 const struct kiln_scene_params *params, struct kiln_error *error)
+                                 const struct kiln_scene_params *params,
+                                 kiln_scene_estimate *estimate, struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
@@ -175,7 +179,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
             kiln_asset_root(arena, params->asset_root, file ? file->path : NULL, error);
         ok = scene->asset_root &&
              (!file || add_own_file(scene, file) || kiln_reader_out_of_memory(&reader)) &&
-             build(&reader, text, size, params);
+             build(&reader, text, size, params, estimate);
         kiln_loader_stop_counting(scene->loader, params->budget);
     }
     kiln_arena_destroy(&scratch);
@@ -192,8 +196,8 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     return scene;
 }
 
-struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_params *given,
-                                   struct kiln_error *error)
+struct kiln_scene *kiln_scene_load_with(const char *path, const struct kiln_scene_params *given,
+                                        kiln_scene_estimate *estimate, struct kiln_error *error)
 {
     size_t size = 0;
     struct stat status;
@@ -209,13 +213,14 @@ struct kiln_scene *kiln_scene_load(const char *path, const struct kiln_scene_par
     if (!text)
         return NULL;
     const struct origin_file origin = {path, &status};
-    struct kiln_scene *scene = create(text, size, path, &origin, &params, error);
+    struct kiln_scene *scene = create(text, size, path, &origin, &params, estimate, error);
     free(text);
     return scene;
 }
 
-struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *name,
-                                    const struct kiln_scene_params *given, struct kiln_error *error)
+struct kiln_scene *kiln_scene_parse_with(const char *text, size_t size, const char *name,
+                                         const struct kiln_scene_params *given,
+                                         kiln_scene_estimate *estimate, struct kiln_error *error)
 {
     struct kiln_scene_params params = kiln_scene_defaults();
     if (!kiln_sized_take(&params, given, "kiln_scene_params", error))
@@ -233,7 +238,7 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
                        "%s: the scene file has %zu bytes; at most %d are allowed", name, size,
                        KILN_MAX_SCENE_SIZE);
     else
-        scene = create(copy, size, name, NULL, &params, error);
+        scene = create(copy, size, name, NULL, &params, estimate, error);
     free(copy);
     return scene;
 }

@@ -250,7 +250,7 @@ KINDS(object_kinds) = {
     {.name = "mesh",
      .value = KILN_OBJECT_MESH,
      MEMBERS(mesh),
-     .help = "A mesh from a file. Meshes and terrains together may be at most 8."},
+     .help = "A mesh from a file. Meshes and terrains together may be at most 64."},
     {.name = "terrain",
      .value = KILN_OBJECT_TERRAIN,
      MEMBERS(terrain),

@@ -471,7 +471,8 @@ struct kiln_scene {
     uint32_t system_count;
     struct kiln_post post;
 
-    uint64_t samples; /* follows: samples of grids (scene/samples.h) */
+    uint64_t samples;      /* follows: samples of grids (scene/samples.h) */
+    uint64_t memory_bytes; /* that rendering on the device cpu is expected to take */
 
     float4 *keys; /* keys: x, y, slope, integral from 0 */
     uint32_t key_count;

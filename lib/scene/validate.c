@@ -16,7 +16,6 @@
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
-#include "scene/work.h"
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
@@ -461,6 +460,5 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
            kiln_family_settle(reader, root) && settle_capacity(reader, root) &&
-           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root) &&
-           kiln_work_check(reader, root);
+           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root);
 }

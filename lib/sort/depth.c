@@ -85,6 +85,14 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
     return sorter;
 }
 
+void kiln_sort_depth_footprint(uint64_t slots, struct kiln_footprint *footprint)
+{
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, slots,
+                       2 * sizeof(kiln_sort_pair)); /* entries and keys of sort_at_once */
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, footprint->threads,
+                       CELL_SCRATCH * sizeof(kiln_sort_pair));
+}
+
 void kiln_sort_depth_destroy(struct kiln_sort_depth **sorter)
 {
     struct kiln_sort_depth *d = *sorter;

@@ -3,6 +3,7 @@
 #ifndef KILN_SORT_DEPTH_H
 #define KILN_SORT_DEPTH_H
 
+#include "base/footprint.h"
 #include "sort/sort.h"
 
 /* Describes slots of one system whose serials are consecutive. */
@@ -17,6 +18,9 @@ struct kiln_sort_depth;
 /* The threads are borrowed. Returns NULL with an error when memory is short. */
 struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
                                                struct kiln_error *error);
+
+/* Adds the memory of sorting the particles of `slots` slots, and of their draw entries. */
+void kiln_sort_depth_footprint(uint64_t slots, struct kiln_footprint *footprint);
 void kiln_sort_depth_destroy(struct kiln_sort_depth **sorter);
 
 /* Fills entries with the draw entries of the living particles of the blocks, ordered by

@@ -8,6 +8,7 @@
 
 #include "fuzz.h"
 #include "kiln.h"
+#include "scene/load.h"
 #include "scene/work.h"
 
 enum { MAX_OVERRIDES = 8 };
@@ -21,7 +22,8 @@ static void check_round_trip(const struct kiln_scene *scene)
     require(out && kiln_scene_print(scene, out), "cannot print a scene");
     fclose(out);
     struct kiln_error error = {0};
-    struct kiln_scene *again = kiln_scene_parse(text, size, "printed.yaml", NULL, &error);
+    struct kiln_scene *again =
+        kiln_scene_parse_with(text, size, "printed.yaml", NULL, NULL, &error);
     require(again, error.message);
     struct kiln_scene_info info = kiln_scene_facts(scene), info_again = kiln_scene_facts(again);
     require(strcmp(info.hash, info_again.hash) == 0, "a printed scene differs");
@@ -50,8 +52,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     params.overrides = (const char *const *)overrides;
     struct kiln_error error = {0};
-    struct kiln_scene *scene =
-        kiln_scene_parse(rest, size - (size_t)(rest - text), "fuzz.yaml", &params, &error);
+    struct kiln_scene *scene = kiln_scene_parse_with(rest, size - (size_t)(rest - text),
+                                                     "fuzz.yaml", &params, NULL, &error);
     fuzz_taken = scene != NULL;
     if (scene)
         check_round_trip(scene);

@@ -322,7 +322,7 @@ static struct found search(struct simulation *run)
     kiln_sim_params_init(params, &fixture.scene, &grids);
     assert_true(
         kiln_sim_params_step(params, &fixture.scene, &run->pool, BALLS_FIRST_STEP + 1, &error));
-    assert_true(kiln_interact_init(&interact, NULL, &fixture.scene, params, run->threads, &error));
+    assert_true(kiln_interact_init(&interact, NULL, &fixture.scene, run->threads, &error));
     assert_true(kiln_interact_gather(&interact, params, &run->pool, NULL, &error));
     const struct kiln_body *bodies = kiln_buffer_host(&interact.bodies, KILN_READ, &error);
     const uint32_t *partners = kiln_buffer_host(&interact.partners, KILN_READ, &error);

@@ -11,6 +11,8 @@
 #include "asset/atlas/builtin.h"
 #include "asset/atlas/cells_in.h"
 #include "asset/atlas/flipbook_cache.h"
+#include "asset/image/image.h"
+#include "asset/loader/loader.h"
 #include "base/error.h"
 #include "base/pages.h"
 
@@ -445,6 +447,42 @@ static bool make_flipbooks(struct kiln_atlas *atlas, struct flipbooks *all,
     for (uint32_t i = 0; i < all->count; i++)
         kiln_builtin_close(&all->books[i].builtin);
     return ok;
+}
+
+/* Adds what making a flipbook from files takes: its cells in floats, and a picture. */
+static void add_making(const struct flipbook *book, struct kiln_footprint *footprint)
+{
+    uint32_t size[2];
+    uint64_t bytes = book->range->cells * CELL_FLOATS * sizeof(float);
+    if (kiln_loader_knows_size(book->source.loader, book->source.path, size))
+        bytes += kiln_asset_image_expected_bytes(book->source.path, size);
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_TEXTURES, bytes);
+}
+
+uint64_t kiln_atlas_footprint(const struct kiln_atlas_request *requests, uint32_t count,
+                              struct kiln_footprint *footprint)
+{
+    struct flipbooks *all = calloc(1, sizeof *all);
+    struct kiln_atlas_range ranges[KILN_MAX_TEXTURES * KILN_MAX_SYSTEMS];
+    struct kiln_atlas atlas = {.layers = 0};
+    uint32_t texture = 0;
+    uint64_t films = 0;
+    for (uint32_t i = 0; all && i < count; i++) {
+        for (uint32_t k = 0; k < requests[i].count; k++)
+            add_texture(all, &atlas, &requests[i], k, &ranges[texture++]);
+    }
+    for (uint32_t i = 0; all && i < all->count; i++) {
+        const struct flipbook *book = &all->books[i];
+        if (book->name)
+            films += kiln_builtin_bytes(book->name, book->range->cells);
+        else
+            add_making(book, footprint);
+    }
+    free(all);
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_TEXTURES, films);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, atlas.layers,
+                       KILN_ATLAS_LAYER_BYTES + KILN_ATLAS_MOVES_BYTES);
+    return atlas.layers;
 }
 
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,

@@ -4,6 +4,7 @@
 #ifndef KILN_ASSET_ATLAS_ATLAS_H
 #define KILN_ASSET_ATLAS_ATLAS_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "gpu/device.h"
 #include "shared/draw_layout.h"
@@ -64,6 +65,11 @@ struct kiln_atlas_request {
 bool kiln_atlas_init(struct kiln_atlas *atlas, struct kiln_device *device,
                      const struct kiln_atlas_request *requests, uint32_t count, const char *cache,
                      struct kiln_threads *threads, struct kiln_error *error);
+
+/* Adds the memory of an atlas, and of making it without a cache. Returns the number of its
+ * layers. */
+uint64_t kiln_atlas_footprint(const struct kiln_atlas_request *requests, uint32_t count,
+                              struct kiln_footprint *footprint);
 
 /* Uploads the two textures, unless they are there. Needs a device. KILN_DEVICE_FAILED when there
  * are more layers than the device allows. */

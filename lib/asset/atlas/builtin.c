@@ -69,6 +69,11 @@ bool kiln_builtin_open(struct kiln_builtin *builtin, const char *name, uint32_t 
     return found && (builtin->film || !found->gas);
 }
 
+uint64_t kiln_builtin_bytes(const char *name, uint32_t cell_count)
+{
+    return kiln_builtin_has_motion(name) ? kiln_film_bytes(cell_count) : 0;
+}
+
 void kiln_builtin_close(struct kiln_builtin *builtin)
 {
     free(builtin->film);

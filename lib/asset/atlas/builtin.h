@@ -17,6 +17,9 @@ bool kiln_builtin_has_motion(const char *name);
 /* Returns the names by index, for messages; NULL behind the last. */
 const char *kiln_builtin_name_at(size_t index);
 
+/* Returns the bytes of a flipbook that is open; 0 for an unknown name. */
+uint64_t kiln_builtin_bytes(const char *name, uint32_t cell_count);
+
 /* Describes a flipbook of cell_count cells. */
 struct kiln_builtin {
     const char *name;

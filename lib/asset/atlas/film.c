@@ -100,12 +100,18 @@ static void run(const struct kiln_film_gas *gas, const struct kiln_fluid_code *c
     }
 }
 
+uint64_t kiln_film_bytes(uint32_t cell_count)
+{
+    const struct kiln_film *film = NULL;
+    return sizeof *film + (uint64_t)cell_count * sizeof film->cells[0];
+}
+
 struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas,
                                    const struct kiln_fluid_code *code, uint32_t cell_count)
 {
     struct kiln_fluid *fluid = aligned_alloc(alignof(struct kiln_fluid), sizeof *fluid);
     struct fields *before = malloc(sizeof *before);
-    struct kiln_film *film = calloc(1, sizeof *film + cell_count * sizeof film->cells[0]);
+    struct kiln_film *film = calloc(1, kiln_film_bytes(cell_count));
     if (film && fluid && before) {
         film->cell_count = cell_count;
         kiln_fluid_init(fluid);

@@ -38,4 +38,7 @@ struct kiln_film {
 struct kiln_film *kiln_film_create(const struct kiln_film_gas *gas,
                                    const struct kiln_fluid_code *code, uint32_t cell_count);
 
+/* Returns the bytes of a film. */
+uint64_t kiln_film_bytes(uint32_t cell_count);
+
 #endif

@@ -473,3 +473,19 @@ void kiln_chart_destroy(struct kiln_chart **chart)
     free(c);
     *chart = NULL;
 }
+
+uint64_t kiln_chart_bytes(uint32_t edge)
+{
+    const struct kiln_chart *c = NULL;
+    const uint64_t texels = (uint64_t)edge * edge;
+    const uint64_t blocks = (texels + KILN_CHART_BLOCK - 1) / KILN_CHART_BLOCK;
+    return texels * (sizeof *c->texels + 6 * sizeof(float) + sizeof *c->on) +
+           blocks * (sizeof *c->low + sizeof *c->high);
+}
+
+uint64_t kiln_chart_making_bytes(uint32_t edge)
+{
+    const struct making *m = NULL;
+    const uint64_t ring_and_key = sizeof(uint8_t) + sizeof(uint64_t);
+    return (uint64_t)edge * edge * (sizeof *m->owners + sizeof *m->texels + ring_and_key);
+}

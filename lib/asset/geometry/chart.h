@@ -5,6 +5,7 @@
 #define KILN_ASSET_GEOMETRY_CHART_H
 
 #include "asset/geometry/mesh.h"
+#include "base/footprint.h"
 
 enum {
     KILN_CHART_BLOCK = 64, /* texels that are painted together, near each other in space */
@@ -36,5 +37,10 @@ struct kiln_chart {
 struct kiln_chart *kiln_chart_create(const struct kiln_mesh *mesh, uint32_t edge, const char *name,
                                      struct kiln_error *error);
 void kiln_chart_destroy(struct kiln_chart **chart);
+
+/* Return the bytes of a chart, and those that making it takes besides, where the mesh covers all of
+ * the texture. */
+uint64_t kiln_chart_bytes(uint32_t edge);
+uint64_t kiln_chart_making_bytes(uint32_t edge);
 
 #endif

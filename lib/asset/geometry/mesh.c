@@ -80,3 +80,10 @@ void kiln_mesh_destroy(struct kiln_mesh **mesh)
     free(*mesh);
     *mesh = NULL;
 }
+
+uint64_t kiln_mesh_bytes(const struct kiln_mesh *mesh)
+{
+    const uint64_t uv = mesh->uvs ? sizeof *mesh->uvs : 0;
+    return mesh->vertex_count * (sizeof *mesh->vertices + uv) +
+           mesh->triangle_count * (uint64_t)sizeof *mesh->triangles;
+}

@@ -79,6 +79,9 @@ void kiln_mesh_face_outwards(struct kiln_mesh *mesh);
 /* Copies a mesh without its materials. NULL when memory is short. The caller destroys the copy. */
 struct kiln_mesh *kiln_mesh_copy(const struct kiln_mesh *mesh);
 
+/* Returns the bytes of the vertices and triangles of a mesh. */
+uint64_t kiln_mesh_bytes(const struct kiln_mesh *mesh);
+
 /* Loads a mesh as kiln_mesh_load does, from bytes in memory, which may name no other files. The end
  * of `name` tells the format, and `name` stands for the file in messages. Only tests call these. */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,

@@ -146,3 +146,11 @@ bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,
     free(entries);
     return ok;
 }
+
+uint64_t kiln_mesh_library_bytes(const struct kiln_mesh_library *library)
+{
+    uint64_t bytes = 0;
+    for (const struct entry *entry = library->entries; entry; entry = entry->next)
+        bytes += entry->skin ? kiln_skin_bytes(entry->skin) : kiln_mesh_bytes(entry->mesh);
+    return bytes;
+}

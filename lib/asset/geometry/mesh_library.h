@@ -25,6 +25,9 @@ const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library
 const struct kiln_skin *kiln_mesh_library_get_skin(struct kiln_mesh_library *library,
                                                    const char *path, struct kiln_error *error);
 
+/* Returns the bytes of all meshes and skins. */
+uint64_t kiln_mesh_library_bytes(const struct kiln_mesh_library *library);
+
 /* Visits each file of the library once, in the order of the paths. skin: of a mesh that moves, else
  * NULL. Stops and returns false when a visit does, or when memory is short. */
 bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,

@@ -217,6 +217,12 @@ struct kiln_nearest *kiln_nearest_create(const struct kiln_mesh *mesh)
     return tree;
 }
 
+uint64_t kiln_nearest_bytes(const struct kiln_mesh *mesh)
+{
+    const struct kiln_nearest *n = NULL;
+    return (uint64_t)mesh->triangle_count * (sizeof *n->order + 2 * sizeof *n->nodes);
+}
+
 void kiln_nearest_destroy(struct kiln_nearest **nearest)
 {
     if (!*nearest)

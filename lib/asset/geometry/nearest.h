@@ -18,6 +18,9 @@ struct kiln_nearest;
 struct kiln_nearest *kiln_nearest_create(const struct kiln_mesh *mesh);
 void kiln_nearest_destroy(struct kiln_nearest **nearest);
 
+/* Returns the bytes of the tree of a mesh. */
+uint64_t kiln_nearest_bytes(const struct kiln_mesh *mesh);
+
 /* Returns the square of the distance from p to the nearest triangle, or `most` if `most` is less.
  * `most` is a square, too; a small one saves time, since boxes that are farther are skipped.
  * Several threads may call it at once. */

@@ -34,6 +34,7 @@ struct kiln_skin {
     struct kiln_skin_morph_channel *morph_channels;
     struct kiln_skin_delta *deltas;
     struct scratch *scratch;
+    uint64_t bytes; /* of all arrays, without those of the mesh */
 };
 
 /* ---- between keys ---------------------------------------------------------------------------- */
@@ -292,9 +293,10 @@ static void normalize(struct kiln_skin *skin)
         normalize_clip(skin, &skin->clips[i]);
 }
 
-static void *copy_of(const void *from, size_t count, size_t size)
+static void *copy_of(struct kiln_skin *skin, const void *from, size_t count, size_t size)
 {
     void *copy = calloc(count ? count : 1, size);
+    skin->bytes += count * size;
     if (copy && count > 0)
         memcpy(copy, from, count * size);
     return copy;
@@ -308,17 +310,17 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
         return NULL;
     }
     skin->mesh = mesh;
-    skin->sources = copy_of(mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices);
-    skin->weights = copy_of(r->weights, mesh->vertex_count, sizeof *r->weights);
-    skin->channels = copy_of(r->channels, r->channel_count, sizeof *r->channels);
-    skin->keys = copy_of(r->keys, r->key_count, sizeof *r->keys);
-    skin->nodes = copy_of(r->nodes, r->node_count, sizeof *r->nodes);
-    skin->bones = copy_of(r->bones, r->bone_count, sizeof *r->bones);
-    skin->clips = copy_of(r->clips, r->clip_count, sizeof *r->clips);
-    skin->morphs = copy_of(r->morphs, r->morph_count, sizeof *r->morphs);
+    skin->sources = copy_of(skin, mesh->vertices, mesh->vertex_count, sizeof *mesh->vertices);
+    skin->weights = copy_of(skin, r->weights, mesh->vertex_count, sizeof *r->weights);
+    skin->channels = copy_of(skin, r->channels, r->channel_count, sizeof *r->channels);
+    skin->keys = copy_of(skin, r->keys, r->key_count, sizeof *r->keys);
+    skin->nodes = copy_of(skin, r->nodes, r->node_count, sizeof *r->nodes);
+    skin->bones = copy_of(skin, r->bones, r->bone_count, sizeof *r->bones);
+    skin->clips = copy_of(skin, r->clips, r->clip_count, sizeof *r->clips);
+    skin->morphs = copy_of(skin, r->morphs, r->morph_count, sizeof *r->morphs);
     skin->morph_channels =
-        copy_of(r->morph_channels, r->morph_channel_count, sizeof *r->morph_channels);
-    skin->deltas = copy_of(r->deltas, r->delta_count, sizeof *r->deltas);
+        copy_of(skin, r->morph_channels, r->morph_channel_count, sizeof *r->morph_channels);
+    skin->deltas = copy_of(skin, r->deltas, r->delta_count, sizeof *r->deltas);
     skin->node_count = r->node_count;
     skin->bone_count = r->bone_count;
     skin->clip_count = r->clip_count;
@@ -327,6 +329,11 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
         !skin->bones || !skin->clips || !skin->morphs || !skin->morph_channels || !skin->deltas)
         kiln_skin_destroy(&skin);
     return skin;
+}
+
+uint64_t kiln_skin_bytes(const struct kiln_skin *skin)
+{
+    return skin->bytes + kiln_mesh_bytes(skin->mesh);
 }
 
 static void destroy_scratch(struct scratch *scratch)

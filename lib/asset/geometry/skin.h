@@ -33,6 +33,9 @@ void kiln_skin_destroy(struct kiln_skin **skin);
 /* Returns the mesh in its rest pose, while no clip plays. Every pose has the same triangles. */
 const struct kiln_mesh *kiln_skin_mesh(const struct kiln_skin *skin);
 
+/* Returns the bytes of a skin and its mesh. */
+uint64_t kiln_skin_bytes(const struct kiln_skin *skin);
+
 /* Finds a clip by its name or, if no clip has that name, by its number from 0. KILN_INVALID_INPUT
  * with the list of clips after `name`, which stands for the file. */
 bool kiln_skin_find_clip(const struct kiln_skin *skin, const char *clip, const char *name,

@@ -320,3 +320,17 @@ struct kiln_mesh *kiln_terrain_mesh(const struct kiln_terrain *terrain, struct k
     add_wall(mesh, terrain, 0, depth - 1, true, FLOAT3(0.0f, 0.0f, 1.0f));
     return mesh;
 }
+
+uint64_t kiln_terrain_mesh_bytes(const uint32_t samples[2])
+{
+    const struct kiln_mesh *m = NULL;
+    const uint64_t points = (uint64_t)samples[0] * samples[1];
+    const uint64_t edges = 2 * ((uint64_t)samples[0] + samples[1]);
+    return (points + 2 * edges) * sizeof *m->vertices +
+           2 * (points + edges) * (uint64_t)sizeof *m->triangles;
+}
+
+uint64_t kiln_terrain_bytes(const uint32_t samples[2])
+{
+    return (uint64_t)samples[0] * samples[1] * sizeof(struct kiln_terrain_point);
+}

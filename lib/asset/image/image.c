@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "asset/image/animated.h"
@@ -300,4 +301,16 @@ bool kiln_asset_sheet_size(struct kiln_loader *loader, const char *path, uint32_
                            struct kiln_error *error)
 {
     return find_size(loader, path, &(struct wanted){.sheet = true}, size, error);
+}
+
+uint64_t kiln_asset_image_expected_bytes(const char *path, const uint32_t size[2])
+{
+    static const char *const floats[] = {".exr", ".hdr", ".tif", ".tiff"};
+    const char *suffix = strrchr(path, '.');
+    uint64_t channel = sizeof(uint16_t);
+    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++) {
+        if (suffix && strcasecmp(suffix, floats[i]) == 0)
+            channel = sizeof(float);
+    }
+    return (uint64_t)size[0] * size[1] * 4 * channel;
 }

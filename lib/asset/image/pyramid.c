@@ -119,6 +119,12 @@ struct kiln_pyramid *kiln_pyramid_create(uint32_t width, uint32_t height)
     return pyramid;
 }
 
+uint64_t kiln_pyramid_bytes(uint32_t width, uint32_t height)
+{
+    struct kiln_pyramid pyramid = {.width = width, .height = height};
+    return lay_out(&pyramid) * sizeof *pyramid.texels;
+}
+
 size_t kiln_pyramid_texels(const struct kiln_pyramid *pyramid)
 {
     const uint32_t last = pyramid->levels - 1;

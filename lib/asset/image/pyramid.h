@@ -29,6 +29,9 @@ struct kiln_pyramid *kiln_pyramid_load(struct kiln_loader *loader, const char *p
  * counts the texels of all levels. kiln_pyramid_set sets their values, from 0 to 65504, level by
  * level. */
 struct kiln_pyramid *kiln_pyramid_create(uint32_t width, uint32_t height);
+
+/* Returns the bytes of the texels of a picture of width * height pixels. */
+uint64_t kiln_pyramid_bytes(uint32_t width, uint32_t height);
 size_t kiln_pyramid_texels(const struct kiln_pyramid *pyramid);
 void kiln_pyramid_set(struct kiln_pyramid *pyramid, const float (*texels)[4]);
 void kiln_pyramid_destroy(struct kiln_pyramid **pyramid);

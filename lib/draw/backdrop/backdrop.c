@@ -6,10 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asset/image/image.h"
+#include "asset/image/pyramid.h"
 #include "asset/image/texture.h"
+#include "asset/loader/loader.h"
 #include "base/error.h"
 #include "draw/backdrop/backdrop_cpu.h"
 #include "draw/backdrop/backdrop_gl.h"
+#include "draw/backdrop/meshes_cpu.h"
+#include "draw/backdrop/surface_cache.h"
 #include "draw/light/lighting_gl.h"
 #include "shared/exact.h"
 #include "shared/shapes.h"
@@ -159,6 +164,30 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
     if (!stage->cpu && !stage->gl)
         kiln_backdrop_destroy(&stage);
     return stage;
+}
+
+/* Adds the memory of a picture of the floor or the sky; path: NULL, or a file. The size of a
+ * video's frames is not known before it is opened. */
+static void add_picture(const struct kiln_scene *scene, const char *path,
+                        struct kiln_footprint *footprint)
+{
+    uint32_t size[2];
+    if (!path || path[0] != '/' || !kiln_loader_knows_size(scene->loader, path, size))
+        return;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_BACKDROP, 1, kiln_pyramid_bytes(size[0], size[1]));
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_BACKDROP,
+                        kiln_asset_image_expected_bytes(path, size));
+}
+
+void kiln_backdrop_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const uint64_t pixels = (uint64_t)scene->width * scene->height;
+    add_picture(scene, scene->backdrop.floor_image, footprint);
+    add_picture(scene, scene->backdrop.sky_image, footprint);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, sizeof(float)); /* surfaces */
+    kiln_meshes_cpu_footprint(scene, footprint);
+    if (kiln_scene_view_stands(scene) && scene->frames > 1)
+        kiln_surface_cache_footprint(scene, footprint);
 }
 
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage)

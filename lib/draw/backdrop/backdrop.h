@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_H
 #define KILN_DRAW_BACKDROP_BACKDROP_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/light/lighting.h"
 #include "gpu/image.h"
@@ -25,6 +26,9 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
                                                  const struct kiln_moment *moment,
                                                  const struct kiln_backdrop_params *params,
                                                  struct kiln_error *error);
+
+/* Adds the memory of the technique `cpu`. */
+void kiln_backdrop_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 
 /* Draws the backdrop, unless the picture of the last call still holds. `gl` leaves the blocks and

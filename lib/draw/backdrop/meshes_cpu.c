@@ -49,13 +49,27 @@ static size_t triangles_before(const struct kiln_meshes *meshes, uint32_t end)
     return count;
 }
 
+static size_t pitch_of(uint32_t width)
+{
+    return (width > KILN_SHADOW_EDGE ? width : KILN_SHADOW_EDGE) + (size_t)KILN_MESH_PAD;
+}
+
+static size_t bands_of(uint32_t height)
+{
+    return (height + KILN_MESH_ROWS - 1) / KILN_MESH_ROWS;
+}
+
+/* Returns the pixels of a band, of all layers. */
+static size_t strip_of(uint32_t width)
+{
+    return KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch_of(width);
+}
+
 static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
 {
     size_t vertices = vertices_before(m->meshes, m->meshes->count);
     size_t triangles = triangles_before(m->meshes, m->meshes->count);
-    size_t widest = m->width > KILN_SHADOW_EDGE ? m->width : KILN_SHADOW_EDGE;
-    size_t pitch = widest + KILN_MESH_PAD,
-           bands = (m->height + KILN_MESH_ROWS - 1) / KILN_MESH_ROWS;
+    const size_t bands = bands_of(m->height);
     if (vertices == 0 || triangles == 0) /* never, since no mesh is empty */
         return false;
     m->view_positions = calloc(vertices, sizeof *m->view_positions);
@@ -63,15 +77,15 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
     m->triangles = calloc(triangles, sizeof *m->triangles);
     if (m->meshes->painted)
         m->uvs = calloc(triangles, sizeof *m->uvs);
-    const size_t hits = bands * KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch * sizeof *m->hits;
+    const size_t hits = bands * strip_of(m->width) * sizeof *m->hits;
     m->hits = kiln_alloc_pages(hits);
     if (m->hits)
         memset(m->hits, 0, hits);
     m->empty = malloc(bands * sizeof *m->empty);
     struct kiln_mesh_canvas *canvas = &m->canvas;
     canvas->threads = threads;
-    canvas->pitch = pitch;
-    canvas->strip = (size_t)KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch;
+    canvas->pitch = pitch_of(m->width);
+    canvas->strip = strip_of(m->width);
     canvas->triangles = calloc(triangles, sizeof *canvas->triangles);
     canvas->ranges = calloc(triangles, sizeof *canvas->ranges);
     canvas->nearness =
@@ -115,6 +129,31 @@ struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
             m->view.paint[i] = kiln_painted_picture(meshes->painted, i);
     }
     return m;
+}
+
+void kiln_meshes_cpu_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_meshes_cpu *m = NULL;
+    uint64_t vertices, triangles, count = 0;
+    bool painted = false;
+    kiln_meshes_count(scene, &vertices, &triangles);
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        count += kiln_object_is_mesh(&scene->backdrop.objects[i]);
+        painted |= kiln_object_takes_paint(&scene->backdrop.objects[i]);
+    }
+    if (count == 0)
+        return;
+    const size_t bands = bands_of(scene->height), strip = strip_of(scene->width);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, vertices,
+                       sizeof *m->view_positions + sizeof *m->world_normals);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, triangles,
+                       sizeof *m->triangles + (painted ? sizeof *m->uvs : 0) +
+                           sizeof *m->canvas.triangles + sizeof *m->canvas.ranges);
+    kiln_row_lists_footprint(triangles, bands, KILN_FOOTPRINT_OBJECTS, footprint);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, bands, strip * sizeof *m->hits);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, footprint->threads,
+                       strip * sizeof *m->canvas.nearness);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, count, kiln_mesh_shadow_bytes());
 }
 
 void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes)
@@ -276,9 +315,9 @@ static void rasterise_band(const struct raster_job *f, uint32_t band, float *nea
     }
     struct kiln_meshes_cpu *m = f->m;
     const float4 frustum = f->view->frustum, principal = f->view->principal;
-    const struct kiln_row_lists *lists = &m->canvas.lists;
-    size_t count = lists->first[band + 1] - lists->first[band],
-           row = KILN_HIT_LAYERS * m->view.pitch;
+    const size_t row = KILN_HIT_LAYERS * m->view.pitch;
+    size_t count;
+    const uint32_t *list = kiln_row_lists_of(&m->canvas.lists, band, &count);
     uint32_t y = band * KILN_MESH_ROWS, left = m->height - y;
     int32_t *hits = m->hits + y * row;
     if (!m->empty[band])
@@ -302,15 +341,16 @@ static void rasterise_band(const struct raster_job *f, uint32_t band, float *nea
         .triangles = hits,
         .pitch = m->view.pitch,
     };
-    m->canvas.rows->draw(&strip, m->canvas.triangles, lists->list + lists->first[band], count);
+    m->canvas.rows->draw(&strip, m->canvas.triangles, list, count);
 #undef PAIR
 }
 
 static void rasterise_bands(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct raster_job *f = context;
-    for (size_t band = begin; band < end; band++)
-        rasterise_band(f, (uint32_t)band, f->m->canvas.nearness + worker * f->m->canvas.strip);
+    for (size_t i = begin; i < end; i++)
+        rasterise_band(f, f->m->canvas.lists.begin + (uint32_t)i,
+                       f->m->canvas.nearness + worker * f->m->canvas.strip);
 }
 
 bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view *view,
@@ -324,11 +364,17 @@ bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view 
             return false;
     }
     project_meshes(m, view, shapes);
-    uint32_t triangles = (uint32_t)triangles_before(m->meshes, m->meshes->count);
-    if (!kiln_row_lists_fill(&m->canvas.lists, m->canvas.ranges, triangles, m->height,
-                             KILN_MESH_ROWS, error))
-        return false;
+    struct kiln_row_lists *lists = &m->canvas.lists;
+    const struct kiln_row_items items = {
+        .ranges = m->canvas.ranges,
+        .count = (uint32_t)triangles_before(m->meshes, m->meshes->count),
+        .height = m->height,
+        .band_height = KILN_MESH_ROWS};
     struct raster_job job = {m, view};
-    return kiln_threads_try(m->canvas.threads, m->canvas.lists.bands, 1, rasterise_bands, &job,
-                            error);
+    bool ok = kiln_row_lists_start(lists, &items, error);
+    while (ok && lists->end < lists->bands)
+        ok = kiln_row_lists_next(lists, &items, error) &&
+             kiln_threads_try(m->canvas.threads, lists->end - lists->begin, 1, rasterise_bands,
+                              &job, error);
+    return ok;
 }

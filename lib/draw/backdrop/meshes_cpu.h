@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_BACKDROP_MESHES_CPU_H
 #define KILN_DRAW_BACKDROP_MESHES_CPU_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/backdrop/mesh_view.h"
 #include "draw/moment/meshes.h"
@@ -15,6 +16,9 @@ struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
                                                const struct kiln_meshes *meshes,
                                                struct kiln_threads *threads,
                                                struct kiln_error *error);
+
+/* Adds the memory of drawing the meshes of a scene, and their shadow maps. */
+void kiln_meshes_cpu_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes);
 
 /* Finds the triangles that the rays of the view hit, and draws the shadow maps of meshes that

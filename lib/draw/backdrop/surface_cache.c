@@ -19,15 +19,25 @@ static uint32_t tiles_of(const struct kiln_surface_cache *cache)
     return (cache->height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
 }
 
+static uint32_t width_of(const struct kiln_scene *scene)
+{
+    return (scene->width + STRIP - 1) / STRIP * STRIP;
+}
+
+static uint32_t rays_of(const struct kiln_scene *scene)
+{
+    return kiln_shape_features(scene).floor_gloss ? 2 : 1;
+}
+
 struct kiln_surface_cache *kiln_surface_cache_create(const struct kiln_scene *scene, uint32_t lanes,
                                                      struct kiln_error *error)
 {
     struct kiln_surface_cache *cache = calloc(1, sizeof *cache);
     if (cache) {
-        cache->width = (scene->width + STRIP - 1) / STRIP * STRIP;
+        cache->width = width_of(scene);
         cache->height = scene->height;
         cache->lanes = lanes;
-        cache->rays = kiln_shape_features(scene).floor_gloss ? 2 : 1;
+        cache->rays = rays_of(scene);
         cache->flags = calloc((size_t)cache->width * cache->height, sizeof *cache->flags);
         cache->edges = calloc(tiles_of(cache), sizeof *cache->edges);
         cache->strips =
@@ -41,6 +51,23 @@ struct kiln_surface_cache *kiln_surface_cache_create(const struct kiln_scene *sc
         kiln_surface_cache_destroy(&cache);
     }
     return cache;
+}
+
+void kiln_surface_cache_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_surface_cache *c = NULL;
+    const struct kiln_cached_edges *e = NULL;
+    const bool haze = kiln_scene_value_max(scene, &scene->backdrop.haze) > 0.0f;
+    const uint64_t tiles = (scene->height + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
+    const uint64_t planes = KILN_CACHE_PLANES + (haze ? 3u : 0u) + kiln_scene_shadow_lights(scene);
+    const uint64_t ray = rays_of(scene) * planes * sizeof *c->centers;
+    const uint64_t edges = tiles * EDGE_ROWS * width_of(scene); /* pixels that have room */
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, (uint64_t)width_of(scene) * scene->height,
+                       ray + sizeof *c->flags);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, edges,
+                       KILN_EDGE_SAMPLES * ray + sizeof *e->columns + sizeof *e->rows);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, tiles * (width_of(scene) / STRIP),
+                       sizeof *c->strips);
 }
 
 static void free_edges(struct kiln_surface_cache *cache)

@@ -6,6 +6,7 @@
 #ifndef KILN_DRAW_BACKDROP_SURFACE_CACHE_H
 #define KILN_DRAW_BACKDROP_SURFACE_CACHE_H
 
+#include "base/footprint.h"
 #include "draw/backdrop/backdrop_inputs.h"
 #include "draw/backdrop/casters.h"
 
@@ -64,6 +65,9 @@ struct kiln_surface_cache {
 struct kiln_surface_cache *kiln_surface_cache_create(const struct kiln_scene *scene, uint32_t lanes,
                                                      struct kiln_error *error);
 void kiln_surface_cache_destroy(struct kiln_surface_cache **cache);
+
+/* Adds the memory of the cache of a scene whose camera stands still. */
+void kiln_surface_cache_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 
 /* Decides what a picture may take from the cache and whether it fills it. Where memory is short,
  * the cache is not used. */

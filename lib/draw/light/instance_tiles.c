@@ -51,6 +51,12 @@ struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *
     return tiles;
 }
 
+uint64_t kiln_instance_tiles_bytes(void)
+{
+    const struct kiln_instance_tiles *t = NULL;
+    return level_at(KILN_INSTANCE_LEVELS) * sizeof *t->texels;
+}
+
 void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles)
 {
     if (!*tiles)

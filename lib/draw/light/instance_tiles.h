@@ -31,6 +31,9 @@ struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *
                                                        struct kiln_error *error);
 void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles);
 
+/* Returns the bytes of the tiles. */
+uint64_t kiln_instance_tiles_bytes(void);
+
 /* Returns the mesh of a system's particles. */
 const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_instance_tiles *tiles,
                                                           uint32_t system);

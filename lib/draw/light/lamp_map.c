@@ -98,6 +98,22 @@ struct kiln_lamp_maps *kiln_lamp_maps_create(const struct kiln_moment *moment,
     return maps;
 }
 
+void kiln_lamp_maps_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_lamp_maps *m = NULL;
+    const struct canvas *c = NULL;
+    uint64_t vertices, triangles;
+    kiln_meshes_count(scene, &vertices, &triangles);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, vertices, sizeof *m->positions);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, triangles * footprint->threads,
+                       sizeof *c->triangles + sizeof *c->list);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, footprint->threads,
+                       (size_t)EDGE * PITCH * sizeof *c->nearness);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, kiln_scene_shadow_lights(scene),
+                       KILN_LAMP_FACES *
+                           (KILN_LAMP_WORDS * sizeof *m->texels + sizeof m->spans[0]));
+}
+
 void kiln_lamp_maps_destroy(struct kiln_lamp_maps **maps)
 {
     struct kiln_lamp_maps *m = *maps;

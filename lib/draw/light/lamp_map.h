@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_LIGHT_LAMP_MAP_H
 #define KILN_DRAW_LIGHT_LAMP_MAP_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/light/shadow_levels.h"
 #include "draw/moment/moment.h"
@@ -24,6 +25,9 @@ bool kiln_lamp_maps_exist(const struct kiln_scene *scene);
 struct kiln_lamp_maps *kiln_lamp_maps_create(const struct kiln_moment *moment,
                                              struct kiln_threads *threads,
                                              struct kiln_error *error);
+
+/* Adds the memory of the maps. */
+void kiln_lamp_maps_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_lamp_maps_destroy(struct kiln_lamp_maps **maps);
 
 /* Draws the maps of the lights whose `casters` is not 0, and sets their numbers and reach. A map

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "draw/light/shade_blocks.h"
 #include "draw/light/sun_shade.h"
+#include "scene/work.h"
 
 enum { GRAIN = 8 * KILN_LANES /* slots that a worker takes at a time */, LIGHTS_OF_WORD = 4 };
 
@@ -36,6 +37,14 @@ struct kiln_lamp_shade *kiln_lamp_shade_create(const struct kiln_scene *scene,
     else
         kiln_error_no_memory(error, "the shade of particles");
     return shade;
+}
+
+void kiln_lamp_shade_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_lamp_shade *s = NULL;
+    const uint64_t planes = (kiln_scene_shadow_lights(scene) + LIGHTS_OF_WORD - 1) / LIGHTS_OF_WORD;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, kiln_work_particles(scene),
+                       (planes ? planes : 1) * sizeof *s->words);
 }
 
 void kiln_lamp_shade_destroy(struct kiln_lamp_shade **shade)

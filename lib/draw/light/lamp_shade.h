@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_LIGHT_LAMP_SHADE_H
 #define KILN_DRAW_LIGHT_LAMP_SHADE_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/light/lamps.h"
 
@@ -18,6 +19,9 @@ bool kiln_lamp_shade_exists(const struct kiln_scene *scene);
 /* Returns NULL with an error. The scene must outlive the result. */
 struct kiln_lamp_shade *kiln_lamp_shade_create(const struct kiln_scene *scene,
                                                struct kiln_error *error);
+
+/* Adds the memory of the shade. */
+void kiln_lamp_shade_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_lamp_shade_destroy(struct kiln_lamp_shade **shade);
 
 /* Computes the part of each light that each lit particle sees. maps: of kiln_lamp_maps_run;

@@ -15,6 +15,7 @@
 #include "draw/light/solid_face.h"
 #include "draw/moment/appearance_blocks.h"
 #include "draw/moment/shapes.h"
+#include "scene/work.h"
 #include "shared/exact.h"
 
 enum { FIRST_ROOM = 1024, FACES = KILN_MOST_LAMPS * KILN_LAMP_FACES };
@@ -101,6 +102,20 @@ struct kiln_lamp_solids *kiln_lamp_solids_create(const struct kiln_moment *momen
         kiln_lamp_solids_destroy(&solids);
     }
     return solids;
+}
+
+void kiln_lamp_solids_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_lamp_solids *s = NULL;
+    const uint64_t solids = kiln_scene_solid_slots(scene);
+    const uint64_t meshes = kiln_instance_tile_edge(scene) > 0 ? kiln_scene_mesh_slots(scene) : 0;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, solids,
+                       2 * sizeof *s->now.balls + footprint->threads * sizeof(struct turn));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, meshes, 2 * sizeof *s->now.meshes);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, footprint->threads,
+                       kiln_solid_canvas_bytes());
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, kiln_scene_shadow_lights(scene),
+                       (uint64_t)KILN_LAMP_FACES * KILN_LAMP_SOLID_WORDS * sizeof *s->texels);
 }
 
 void kiln_lamp_solids_destroy(struct kiln_lamp_solids **solids)

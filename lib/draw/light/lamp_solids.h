@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_LIGHT_LAMP_SOLIDS_H
 #define KILN_DRAW_LIGHT_LAMP_SOLIDS_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/light/lamp_map.h"
 #include "draw/moment/moment.h"
@@ -34,6 +35,9 @@ bool kiln_lamp_solids_exist(const struct kiln_scene *scene);
 struct kiln_lamp_solids *kiln_lamp_solids_create(const struct kiln_moment *moment,
                                                  struct kiln_threads *threads,
                                                  struct kiln_error *error);
+
+/* Adds the memory of the maps, and of the solids that they show. */
+void kiln_lamp_solids_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_lamp_solids_destroy(struct kiln_lamp_solids **solids);
 
 /* Draws the maps of the lights whose `casters.x` is not 0 and that shine on solids, and adds the

@@ -127,6 +127,36 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
     return stage;
 }
 
+/* Adds the memory of smoke, its grids and its maps around lamps. */
+static void add_smoke(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    uint64_t slots = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        slots += kiln_system_is_smoke(&scene->systems[i]) ? scene->systems[i].capacity : 0;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, slots, sizeof(struct kiln_puff));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, 1,
+                       kiln_smoke_shadow_bytes() +
+                           ((size_t)GRIDS * CELLS + COARSE) * sizeof(float));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, kiln_scene_shadow_lights(scene),
+                       KILN_LAMP_SMOKE_MAP * sizeof(float));
+}
+
+void kiln_lighting_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    if (kiln_scene_has_smoke(scene))
+        add_smoke(scene, footprint);
+    if (kiln_shape_features(scene).solids)
+        kiln_solid_shadow_footprint(scene, footprint);
+    if (kiln_sun_shade_exists(scene))
+        kiln_sun_shade_footprint(scene, footprint);
+    if (kiln_lamp_shade_exists(scene))
+        kiln_lamp_shade_footprint(scene, footprint);
+    if (kiln_lamp_maps_exist(scene))
+        kiln_lamp_maps_footprint(scene, footprint);
+    if (kiln_lamp_solids_exist(scene))
+        kiln_lamp_solids_footprint(scene, footprint);
+}
+
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
 {
     if (!*stage)

@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_LIGHT_LIGHTING_H
 #define KILN_DRAW_LIGHT_LIGHTING_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/light/lamp_map.h"
 #include "draw/light/lamp_shade.h"
@@ -48,6 +49,9 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  const struct kiln_moment *moment,
                                                  struct kiln_threads *threads,
                                                  struct kiln_error *error);
+
+/* Adds the memory of the stage on the host. */
+void kiln_lighting_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
 
 /* Returns whether the stage reads particles on the host, so that moments must have them there. */

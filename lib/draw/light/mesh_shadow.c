@@ -35,6 +35,12 @@ void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow)
     shadow->spans = NULL;
 }
 
+uint64_t kiln_mesh_shadow_bytes(void)
+{
+    const struct kiln_mesh_shadow *s = NULL;
+    return KILN_SHADOW_WORDS * sizeof *s->texels + KILN_SHADOW_ROWS * sizeof *s->spans;
+}
+
 struct shadow_job {
     struct kiln_mesh_shadow *shadow;
     struct kiln_mesh_canvas *canvas;
@@ -119,7 +125,8 @@ static void project_triangles(void *context, size_t begin, size_t end, uint32_t 
 static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness)
 {
     const struct kiln_mesh_canvas *canvas = d->canvas;
-    const struct kiln_row_lists *lists = &canvas->lists;
+    size_t count;
+    const uint32_t *list = kiln_row_lists_of(&canvas->lists, band, &count);
     const uint32_t y = band * KILN_MESH_ROWS;
     memset(nearness, 0, KILN_MESH_ROWS * canvas->pitch * sizeof *nearness);
     const struct kiln_mesh_strip strip = {
@@ -134,8 +141,7 @@ static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness
         .nearness = nearness,
         .pitch = canvas->pitch,
     };
-    canvas->rows->draw(&strip, canvas->triangles, lists->list + lists->first[band],
-                       lists->first[band + 1] - lists->first[band]);
+    canvas->rows->draw(&strip, canvas->triangles, list, count);
     const size_t pitch = KILN_SHADOW_PITCH(EDGE);
     uint32_t *finest = d->shadow->texels + KILN_SHADOW_PAIR * kiln_shadow_level_start(EDGE, 0);
     for (uint32_t row = 0; row < KILN_MESH_ROWS; row++) {
@@ -154,8 +160,9 @@ static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness
 static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct shadow_job *d = context;
-    for (size_t band = begin; band < end; band++)
-        draw_band(d, (uint32_t)band, d->canvas->nearness + worker * d->canvas->strip);
+    for (size_t i = begin; i < end; i++)
+        draw_band(d, d->canvas->lists.begin + (uint32_t)i,
+                  d->canvas->nearness + worker * d->canvas->strip);
 }
 
 static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker)
@@ -188,11 +195,19 @@ bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_c
     shadow->sun = sun;
     struct shadow_job job = {shadow, canvas, mesh, 0};
     kiln_threads_for(canvas->threads, mesh->triangle_count, 512, project_triangles, &job);
-    shadow->drawn = kiln_row_lists_fill(&canvas->lists, canvas->ranges, mesh->triangle_count, EDGE,
-                                        KILN_MESH_ROWS, error);
+    struct kiln_row_lists *lists = &canvas->lists;
+    const struct kiln_row_items items = {.ranges = canvas->ranges,
+                                         .count = mesh->triangle_count,
+                                         .height = EDGE,
+                                         .band_height = KILN_MESH_ROWS};
+    shadow->drawn = kiln_row_lists_start(lists, &items, error);
+    while (shadow->drawn && lists->end < lists->bands) {
+        shadow->drawn = kiln_row_lists_next(lists, &items, error);
+        if (shadow->drawn)
+            kiln_threads_for(canvas->threads, lists->end - lists->begin, 1, draw_bands, &job);
+    }
     if (!shadow->drawn)
         return false;
-    kiln_threads_for(canvas->threads, canvas->lists.bands, 1, draw_bands, &job);
     while (++job.level < KILN_SHADOW_LEVELS)
         kiln_threads_for(canvas->threads, EDGE >> job.level, ROWS_AT_A_TIME, shrink_rows, &job);
     return true;

@@ -38,6 +38,9 @@ struct kiln_mesh_canvas {
 bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error);
 void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow);
 
+/* Returns the bytes of a map. */
+uint64_t kiln_mesh_shadow_bytes(void);
+
 /* Draws the map, unless it shows the mesh in this position and under this sun already. */
 bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_canvas *canvas,
                              const struct kiln_mesh *mesh, const struct kiln_draw_mesh *placed,

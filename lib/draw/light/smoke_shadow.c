@@ -60,13 +60,23 @@ static size_t level_floats(int level)
     return edge * edge * edge;
 }
 
-struct kiln_smoke_shadow *kiln_smoke_shadow_create(void)
+static size_t finer_floats(void)
 {
-    size_t pyramid = 0, finer = 2 * level_floats(1);
+    return 2 * level_floats(1);
+}
+
+uint64_t kiln_smoke_shadow_bytes(void)
+{
+    size_t pyramid = 0;
     for (int level = 0; level < LEVELS; level++)
         pyramid += level_floats(level);
+    return KILN_MAX_SMOKE_GRIDS * (MOST_PARTS * pyramid + finer_floats()) * sizeof(float);
+}
+
+struct kiln_smoke_shadow *kiln_smoke_shadow_create(void)
+{
     struct kiln_smoke_shadow *shadow = calloc(1, sizeof *shadow);
-    float *memory = malloc(KILN_MAX_SMOKE_GRIDS * (MOST_PARTS * pyramid + finer) * sizeof *memory);
+    float *memory = malloc(kiln_smoke_shadow_bytes());
     if (!shadow || !memory) {
         free(shadow);
         free(memory);
@@ -82,7 +92,7 @@ struct kiln_smoke_shadow *kiln_smoke_shadow_create(void)
             }
         }
         box->finer = memory;
-        memory += finer;
+        memory += finer_floats();
     }
     return shadow;
 }

@@ -55,6 +55,11 @@ bool kiln_face_misses(float3 center, float radius)
     return center.z + radius <= 0.0f || fabsf(center.x) >= reach || fabsf(center.y) >= reach;
 }
 
+size_t kiln_solid_canvas_bytes(void)
+{
+    return sizeof(struct kiln_solid_canvas);
+}
+
 struct kiln_solid_canvas *kiln_solid_canvas_create(void)
 {
     struct kiln_solid_canvas *canvas = calloc(1, sizeof *canvas);

@@ -34,6 +34,9 @@ float3 kiln_face_frame(uint32_t face, float3 from);
 /* Returns whether a ball lies beside the face's picture for certain. */
 bool kiln_face_misses(float3 center, float radius);
 
+/* Returns the bytes of a canvas. */
+size_t kiln_solid_canvas_bytes(void);
+
 /* Returns an empty canvas, or NULL when memory is short. */
 struct kiln_solid_canvas *kiln_solid_canvas_create(void);
 void kiln_solid_canvas_destroy(struct kiln_solid_canvas **canvas);

@@ -10,9 +10,14 @@
 
 #include "base/error.h"
 #include "draw/light/instance_tiles.h"
+#include "scene/work.h"
 #include "shared/exact.h"
 
-enum { MOST_ENTRIES = 1 << 20, FIRST_ROOM = 1024 };
+enum {
+    MOST_ENTRIES = 1 << 20,
+    FIRST_ROOM = 1024,
+    BINS_OF_A_SOLID = 64, /* that its shadow may be in, as the memory is estimated */
+};
 
 struct solid {
     float4 center;         /* world position; w: radius, m */
@@ -65,6 +70,27 @@ struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scen
             kiln_solid_shadow_destroy(&shadow);
     }
     return shadow;
+}
+
+void kiln_solid_shadow_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_solid_shadow *s = NULL;
+    const uint64_t solids = kiln_scene_solid_slots(scene);
+    const bool tiles = kiln_instance_tile_edge(scene) > 0;
+    const uint64_t listed = solids > MOST_ENTRIES ? solids : MOST_ENTRIES;
+    const uint64_t most =
+        solids < MOST_ENTRIES / BINS_OF_A_SOLID ? solids * BINS_OF_A_SOLID : listed;
+    uint64_t rows = 1;
+    while (rows * KILN_SOLID_ROW < most)
+        rows *= 2;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, solids, sizeof *s->solids);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, rows * KILN_SOLID_ROW,
+                       (tiles ? 2 : 1) * sizeof *s->entries);
+    if (tiles) {
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, kiln_scene_mesh_slots(scene),
+                           sizeof *s->places);
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, 1, kiln_instance_tiles_bytes());
+    }
 }
 
 /* Returns the greatest width of a solid's penumbra, m: that at the floor, or at most `widest`,

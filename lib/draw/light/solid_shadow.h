@@ -7,6 +7,7 @@
 #ifndef KILN_DRAW_LIGHT_SOLID_SHADOW_H
 #define KILN_DRAW_LIGHT_SOLID_SHADOW_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/moment/appearance.h"
 #include "draw/moment/shapes.h"
@@ -31,6 +32,9 @@ struct kiln_solid_shadow;
 struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scene,
                                                    const struct kiln_instances *meshes,
                                                    struct kiln_error *error);
+
+/* Adds the memory of the lists of solids. */
+void kiln_solid_shadow_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_solid_shadow_destroy(struct kiln_solid_shadow **shadow);
 
 /* Lists the living solids. The order in which they will be drawn has no effect on the lists. */

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "draw/light/shade_blocks.h"
 #include "draw/light/sun_mesh.h"
+#include "scene/work.h"
 
 enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
@@ -38,12 +39,18 @@ bool kiln_sun_shade_exists(const struct kiln_scene *scene)
     return false;
 }
 
-struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
-                                             struct kiln_error *error)
+static size_t count_meshes(const struct kiln_scene *scene)
 {
     size_t meshes = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
         meshes += kiln_object_is_mesh(&scene->backdrop.objects[i]);
+    return meshes;
+}
+
+struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
+                                             struct kiln_error *error)
+{
+    const size_t meshes = count_meshes(scene);
     struct kiln_sun_shade *shade = calloc(1, sizeof *shade);
     if (shade)
         shade->maps = calloc(meshes ? meshes : 1, sizeof *shade->maps);
@@ -54,6 +61,14 @@ struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
     }
     shade->scene = scene;
     return shade;
+}
+
+void kiln_sun_shade_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_sun_shade *s = NULL;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, count_meshes(scene), sizeof *s->maps);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, kiln_work_particles(scene),
+                       sizeof *s->visible);
 }
 
 void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)

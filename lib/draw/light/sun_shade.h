@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_LIGHT_SUN_SHADE_H
 #define KILN_DRAW_LIGHT_SUN_SHADE_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/moment/appearance.h"
 
@@ -18,6 +19,9 @@ bool kiln_sun_shade_exists(const struct kiln_scene *scene);
 /* Returns NULL with an error. The scene must outlive the result. */
 struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
                                              struct kiln_error *error);
+
+/* Adds the memory of the shade. */
+void kiln_sun_shade_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_sun_shade_destroy(struct kiln_sun_shade **shade);
 
 /* Computes the part of the sun that each lit particle sees. Returns 0 to 1 for each slot of the

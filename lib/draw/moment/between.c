@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "draw/moment/moment_gl.h"
 #include "gpu/program.h"
+#include "scene/pool_layout.h"
 #include "shared/between.h"
 
 enum { GROUP_SIZE = 64, SLOTS_AT_A_TIME = 4096 };
@@ -47,6 +48,13 @@ struct kiln_between *kiln_between_create(struct kiln_device *device,
     if (in_gl && !make_programs(between, error))
         kiln_between_destroy(&between);
     return between;
+}
+
+void kiln_between_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    struct kiln_pool_layout layout = kiln_scene_pool_layout(scene);
+    layout.canvas_count = 0;
+    kiln_pool_footprint(&layout, footprint);
 }
 
 void kiln_between_destroy(struct kiln_between **between)

@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_MOMENT_BETWEEN_H
 #define KILN_DRAW_MOMENT_BETWEEN_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/moment/moment.h"
 
@@ -14,6 +15,9 @@ struct kiln_between;
 struct kiln_between *kiln_between_create(struct kiln_device *device,
                                          const struct kiln_moment *moment, bool in_gl,
                                          struct kiln_threads *threads, struct kiln_error *error);
+
+/* Adds the memory of the particles within a step, on the host. */
+void kiln_between_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_between_destroy(struct kiln_between **between);
 
 /* Returns a pool with the particles at the instant, or NULL with an error. before, after: the

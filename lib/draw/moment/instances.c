@@ -54,6 +54,17 @@ static bool add_mesh(struct kiln_instances *instances, const struct kiln_scene *
     return true;
 }
 
+void kiln_instances_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_instances *n = NULL;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_look *look = &scene->systems[i].look;
+        if (look->shape == KILN_SHAPE_MESH)
+            kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS,
+                               3 * (uint64_t)look->mesh.shown->triangle_count, sizeof *n->corners);
+    }
+}
+
 bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,
                          struct kiln_error *error)
 {

@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_MOMENT_INSTANCES_H
 #define KILN_DRAW_MOMENT_INSTANCES_H
 
+#include "base/footprint.h"
 #include "scene/scene.h"
 
 enum { KILN_INSTANCE_LARGEST_TILE = 64 }; /* texels along an edge */
@@ -27,6 +28,9 @@ struct kiln_instances {
  * short; kiln_instances_finish must be called in that case, too. */
 bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,
                          struct kiln_error *error);
+
+/* Adds the memory of the meshes of a scene's systems. */
+void kiln_instances_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_instances_finish(struct kiln_instances *instances);
 
 /* Returns the edge, in texels, of the tiles that hold the silhouettes of particles that are meshes,

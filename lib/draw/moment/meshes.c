@@ -62,6 +62,40 @@ bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene
     return !painted || meshes->painted;
 }
 
+void kiln_meshes_count(const struct kiln_scene *scene, uint64_t *vertices, uint64_t *triangles)
+{
+    *vertices = *triangles = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (object->kind == KILN_OBJECT_TERRAIN) {
+            const uint64_t points = (uint64_t)object->samples[0] * object->samples[1];
+            const uint64_t edges = 2 * ((uint64_t)object->samples[0] + object->samples[1]);
+            *vertices += points + 2 * edges;
+            *triangles += 2 * (points + edges);
+        } else if (object->kind == KILN_OBJECT_MESH) {
+            *vertices += object->shown->vertex_count;
+            *triangles += object->shown->triangle_count;
+        }
+    }
+}
+
+void kiln_meshes_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (object->kind == KILN_OBJECT_TERRAIN) {
+            kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1,
+                               kiln_terrain_mesh_bytes(object->samples));
+            kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
+                                kiln_terrain_bytes(object->samples));
+        } else if (object->kind == KILN_OBJECT_MESH && object->animation.enabled) {
+            kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1,
+                               kiln_mesh_bytes(object->shown));
+        }
+    }
+    kiln_painted_footprint(scene, footprint);
+}
+
 void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s)
 {
     for (uint32_t i = 0; i < meshes->count; i++) {

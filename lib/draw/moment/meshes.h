@@ -3,6 +3,7 @@
 #define KILN_DRAW_MOMENT_MESHES_H
 
 #include "asset/geometry/skin.h"
+#include "base/footprint.h"
 #include "draw/moment/painted.h"
 
 /* Holds the meshes in the order of the scene's objects; the arrays are indexed by mesh. */
@@ -20,6 +21,12 @@ struct kiln_meshes {
  * and kiln_painted_create; kiln_meshes_finish must be called after an error, too. */
 bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene,
                       struct kiln_error *error);
+
+/* Adds the memory of terrains, of copies of meshes that move, and of painted textures. */
+void kiln_meshes_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
+
+/* Counts the vertices and triangles of all meshes of the backdrop, with those of terrains. */
+void kiln_meshes_count(const struct kiln_scene *scene, uint64_t *vertices, uint64_t *triangles);
 
 /* Poses the animated meshes for a clip time: their vertices and their bounds. */
 void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s);

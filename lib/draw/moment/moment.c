@@ -39,6 +39,14 @@ void kiln_moment_finish(struct kiln_moment *moment)
     moment->look_table = NULL;
 }
 
+void kiln_moment_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_moment *m = NULL;
+    kiln_meshes_footprint(scene, footprint);
+    kiln_instances_footprint(scene, footprint);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, KILN_LOOK_TEXELS, sizeof *m->look_table);
+}
+
 /* Makes the pool's records and spins available on the host. */
 static bool read_particles(struct kiln_moment *moment, struct kiln_error *error)
 {

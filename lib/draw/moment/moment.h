@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_MOMENT_MOMENT_H
 #define KILN_DRAW_MOMENT_MOMENT_H
 
+#include "base/footprint.h"
 #include "base/simd.h"
 #include "draw/moment/instances.h"
 #include "draw/moment/looks.h"
@@ -44,6 +45,9 @@ struct kiln_moment {
 bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
                       const struct kiln_scene *scene, const struct kiln_atlas *atlas,
                       struct kiln_error *error);
+
+/* Adds the memory of a drawn moment. */
+void kiln_moment_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 
 /* Frees what the moment owns; does nothing for a moment of zeros. */
 void kiln_moment_finish(struct kiln_moment *moment);

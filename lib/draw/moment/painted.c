@@ -162,6 +162,22 @@ struct kiln_painted *kiln_painted_create(const struct kiln_scene *scene,
     return painted;
 }
 
+void kiln_painted_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct paint_texture *t = NULL;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (!kiln_object_takes_paint(object))
+            continue;
+        const uint32_t edge = object->paint.size;
+        const uint64_t texels = kiln_pyramid_bytes(edge, edge) / sizeof *t->pyramid->texels;
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, texels,
+                           sizeof *t->pyramid->texels + sizeof *t->colors + sizeof *t->weights);
+        kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
+                            kiln_chart_bytes(edge) + kiln_chart_making_bytes(edge));
+    }
+}
+
 void kiln_painted_destroy(struct kiln_painted **painted)
 {
     if (!*painted)

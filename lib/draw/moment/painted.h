@@ -5,6 +5,7 @@
 
 #include "asset/geometry/mesh.h"
 #include "asset/image/pyramid.h"
+#include "base/footprint.h"
 #include "particles/pool.h"
 #include "scene/scene.h"
 
@@ -16,6 +17,9 @@ struct kiln_painted;
 struct kiln_painted *kiln_painted_create(const struct kiln_scene *scene,
                                          const struct kiln_mesh *const *meshes,
                                          struct kiln_error *error);
+
+/* Adds the memory of the painted textures of a scene. */
+void kiln_painted_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_painted_destroy(struct kiln_painted **painted);
 
 /* Updates the textures from the pool's paint. */

@@ -9,6 +9,7 @@
 #include "base/matrix.h"
 #include "draw/moment/appearance.h"
 #include "draw/solids/solid_rows.h"
+#include "scene/work.h"
 #include "shared/derived.h"
 
 enum { GRAIN = 512 };
@@ -33,28 +34,39 @@ struct kiln_solids_cpu {
     uint32_t *visible;
 };
 
-/* Returns the number of samples that a thread has. */
-static size_t samples_of(const struct kiln_solids_cpu *stage)
+/* Returns for how many solids there is room after a frame with `count` of them. */
+static uint64_t room_for(uint64_t count)
 {
-    return (size_t)KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * stage->pitch;
+    return count + count / 4 + 64;
+}
+
+static size_t pitch_of(const struct kiln_scene *scene)
+{
+    return (size_t)scene->width + KILN_SOLID_PAD;
+}
+
+/* Returns the number of samples that a thread has. */
+static size_t samples_of(const struct kiln_scene *scene)
+{
+    return KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * pitch_of(scene);
 }
 
 /* Returns the number of words that a thread has for visible particles. */
-static size_t visible_words_of(const struct kiln_solids_cpu *stage)
+static size_t visible_words_of(const struct kiln_scene *scene)
 {
-    return (size_t)KILN_SOLID_VISIBLE_WORDS * KILN_SOLID_SAMPLES * stage->pitch;
+    return KILN_SOLID_VISIBLE_WORDS * KILN_SOLID_SAMPLES * pitch_of(scene);
 }
 
 static bool allocate(struct kiln_solids_cpu *stage)
 {
     size_t threads = kiln_threads_count(stage->threads);
-    stage->pitch = stage->scene->width + KILN_SOLID_PAD;
-    stage->samples = malloc(threads * samples_of(stage) * sizeof *stage->samples);
-    stage->nearest = malloc(threads * samples_of(stage) * sizeof *stage->nearest);
-    stage->visible = malloc(threads * visible_words_of(stage) * sizeof *stage->visible);
+    stage->pitch = pitch_of(stage->scene);
+    stage->samples = malloc(threads * samples_of(stage->scene) * sizeof *stage->samples);
+    stage->nearest = malloc(threads * samples_of(stage->scene) * sizeof *stage->nearest);
+    stage->visible = malloc(threads * visible_words_of(stage->scene) * sizeof *stage->visible);
     bool meshes = stage->meshes->corners != NULL;
     if (meshes)
-        stage->triangles = malloc(threads * samples_of(stage) * sizeof *stage->triangles);
+        stage->triangles = malloc(threads * samples_of(stage->scene) * sizeof *stage->triangles);
     return stage->samples && stage->nearest && stage->visible && (stage->triangles || !meshes);
 }
 
@@ -75,6 +87,22 @@ struct kiln_solids_cpu *kiln_solids_cpu_create(const struct kiln_moment *moment,
         kiln_solids_cpu_destroy(&stage);
     }
     return stage;
+}
+
+void kiln_solids_cpu_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_solids_cpu *s = NULL;
+    const bool meshes = kiln_scene_mesh_slots(scene) > 0;
+    const uint64_t solids = room_for(kiln_scene_solid_slots(scene));
+    const uint64_t sample =
+        sizeof *s->samples + sizeof *s->nearest + (meshes ? sizeof *s->triangles : 0);
+    const uint64_t solid =
+        sizeof *s->spheres + sizeof *s->ranges + (meshes ? sizeof *s->instances : 0);
+    const uint64_t bands = (scene->height + KILN_SOLID_ROWS - 1) / KILN_SOLID_ROWS;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, footprint->threads,
+                       samples_of(scene) * sample + visible_words_of(scene) * sizeof *s->visible);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, solids, solid);
+    kiln_row_lists_footprint(solids, bands, KILN_FOOTPRINT_PARTICLES, footprint);
 }
 
 void kiln_solids_cpu_destroy(struct kiln_solids_cpu **stage)
@@ -281,7 +309,7 @@ static bool make_room(struct kiln_solids_cpu *stage, uint32_t count, struct kiln
     free(stage->spheres);
     free(stage->ranges);
     free(stage->instances);
-    stage->capacity = count + count / 4 + 64;
+    stage->capacity = (uint32_t)room_for(count);
     stage->spheres = malloc(stage->capacity * sizeof *stage->spheres);
     stage->ranges = malloc(stage->capacity * sizeof *stage->ranges);
     bool meshes = stage->meshes->corners != NULL;
@@ -317,18 +345,18 @@ static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
     const struct draw_job *d = context;
     struct kiln_solids_cpu *stage = d->stage;
     const struct kiln_row_lists *lists = &stage->lists;
-    for (size_t band = begin; band < end; band++) {
+    for (size_t i = begin; i < end; i++) {
         struct kiln_solid_strip strip = d->strip;
+        const size_t band = lists->begin + i;
         uint32_t y = (uint32_t)band * KILN_SOLID_ROWS, height = stage->scene->height;
         strip.y = y;
         strip.y_to = y + KILN_SOLID_ROWS < height ? y + KILN_SOLID_ROWS : height;
-        strip.list = lists->list + lists->first[band];
-        strip.count = lists->first[band + 1] - lists->first[band];
-        strip.samples = stage->samples + worker * samples_of(stage);
-        strip.nearest = stage->nearest + worker * samples_of(stage);
-        strip.visible = stage->visible + worker * visible_words_of(stage);
+        strip.list = kiln_row_lists_of(lists, band, &strip.count);
+        strip.samples = stage->samples + worker * samples_of(stage->scene);
+        strip.nearest = stage->nearest + worker * samples_of(stage->scene);
+        strip.visible = stage->visible + worker * visible_words_of(stage->scene);
         if (stage->triangles)
-            strip.triangles = stage->triangles + worker * samples_of(stage);
+            strip.triangles = stage->triangles + worker * samples_of(stage->scene);
         stage->code->draw(&strip);
     }
 }
@@ -364,9 +392,16 @@ bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_momen
                             .patterned = kiln_looks_patterned(stage->scene),
                             .width = stage->scene->width,
                             .pitch = stage->pitch}};
-    if (!kiln_row_lists_fill(&stage->lists, stage->ranges, count, stage->scene->height,
-                             KILN_SOLID_ROWS, error) ||
-        !open_images(&stage->targets, &job.strip, error))
-        return false;
-    return kiln_threads_try(stage->threads, stage->lists.bands, 1, draw_bands, &job, error);
+    const struct kiln_row_items items = {.ranges = stage->ranges,
+                                         .count = count,
+                                         .height = stage->scene->height,
+                                         .band_height = KILN_SOLID_ROWS};
+    struct kiln_row_lists *lists = &stage->lists;
+    bool ok = open_images(&stage->targets, &job.strip, error) &&
+              kiln_row_lists_start(lists, &items, error);
+    while (ok && lists->end < lists->bands)
+        ok =
+            kiln_row_lists_next(lists, &items, error) &&
+            kiln_threads_try(stage->threads, lists->end - lists->begin, 1, draw_bands, &job, error);
+    return ok;
 }

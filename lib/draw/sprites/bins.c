@@ -88,8 +88,9 @@ void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t widt
 
 struct filling {
     struct kiln_bins *bins;
-    uint32_t begin, end; /* sprites */
-    uint64_t total;      /* of all counts */
+    uint32_t begin, end;           /* sprites */
+    size_t first_tile, tile_count; /* the tiles that get lists */
+    uint64_t total;                /* of all counts */
 };
 
 bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *error)
@@ -138,7 +139,7 @@ static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
         for (uint32_t y = (uint32_t)s->y_from / KILN_TILE_HEIGHT; y <= bottom; y++) {
             for (uint32_t x = left; x <= right; x++) {
                 size_t tile = (size_t)y * bins->columns + x;
-                if (is_hidden(s, bins->depth[tile]))
+                if (tile - f->first_tile >= f->tile_count || is_hidden(s, bins->depth[tile]))
                     continue;
                 if (list)
                     list[counts[tile]] = i;
@@ -225,17 +226,21 @@ static bool write_lists(struct filling *f, struct kiln_threads *threads, struct 
     return true;
 }
 
-bool kiln_bins_fill(struct kiln_bins *bins, uint32_t begin, uint32_t end,
-                    struct kiln_threads *threads, struct kiln_error *error)
+bool kiln_bins_fill_tiles(struct kiln_bins *bins, uint32_t sprites, size_t begin, size_t end,
+                          struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct filling filling = {.bins = bins, .begin = begin, .end = end};
+    struct filling filling = {
+        .bins = bins, .end = sprites, .first_tile = begin, .tile_count = end - begin};
     return count(&filling, threads, error) && write_lists(&filling, threads, error);
 }
 
 bool kiln_bins_fill_some(struct kiln_bins *bins, uint32_t begin, uint32_t *end,
                          struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct filling filling = {.bins = bins, .begin = begin, .end = *end};
+    struct filling filling = {.bins = bins,
+                              .begin = begin,
+                              .end = *end,
+                              .tile_count = (size_t)bins->columns * bins->rows};
     if (!count(&filling, threads, error))
         return false;
     while (filling.total > MOST_LISTED && filling.end - begin > LEAST_FILLED) {
@@ -245,4 +250,19 @@ bool kiln_bins_fill_some(struct kiln_bins *bins, uint32_t begin, uint32_t *end,
     }
     *end = filling.end;
     return write_lists(&filling, threads, error);
+}
+
+void kiln_bins_footprint(uint32_t width, uint32_t height, uint64_t sprites,
+                         struct kiln_footprint *footprint)
+{
+    const struct kiln_bins *b = NULL;
+    const uint64_t columns = (width + KILN_TILE_WIDTH - 1) / KILN_TILE_WIDTH;
+    const uint64_t tiles = columns * ((height + KILN_TILE_HEIGHT - 1) / KILN_TILE_HEIGHT);
+    const uint64_t pieces = (sprites + PIECE - 1) / PIECE;
+    const uint64_t listed = sprites < MOST_LISTED / tiles ? sprites * tiles : MOST_LISTED;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, tiles,
+                       sizeof *b->depth + sizeof *b->first);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, sprites, sizeof *b->boxes);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, pieces * tiles, sizeof *b->counts);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, listed, sizeof *b->list);
 }

@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_SPRITES_BINS_H
 #define KILN_DRAW_SPRITES_BINS_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/sprites/tile.h"
 
@@ -49,15 +50,21 @@ bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *
 void kiln_bins_note(const struct kiln_bins *bins, const struct kiln_sprite *sprites, size_t begin,
                     size_t end);
 
-/* Makes the lists of the sprites from `begin` to `end`, whose boxes are noted. A sprite without
- * pixels (x_from = x_to) is in no list. A tile does not list sprites that are farther than the
- * scene everywhere in it. Returns false with an error. */
-bool kiln_bins_fill(struct kiln_bins *bins, uint32_t begin, uint32_t end,
-                    struct kiln_threads *threads, struct kiln_error *error);
+/* Makes the lists of `count` sprites, whose boxes are noted, for the tiles from `begin` to `end`;
+ * the other tiles get empty lists. A sprite without pixels (x_from = x_to) is in no list. A tile
+ * does not list sprites that are farther than the scene everywhere in it. Returns false with an
+ * error. */
+bool kiln_bins_fill_tiles(struct kiln_bins *bins, uint32_t count, size_t begin, size_t end,
+                          struct kiln_threads *threads, struct kiln_error *error);
 
-/* Makes the lists of the sprites from `begin` to *end or, where they would need much memory, of
- * fewer. Sets *end to that of the listed sprites. */
+/* Makes the lists of all tiles, of the sprites from `begin` to *end or, where they would need much
+ * memory, of fewer. Sets *end to that of the listed sprites. */
 bool kiln_bins_fill_some(struct kiln_bins *bins, uint32_t begin, uint32_t *end,
                          struct kiln_threads *threads, struct kiln_error *error);
+
+/* Adds the memory of the lists of up to `sprites` sprites at a time, in a picture of up to this
+ * size, px. */
+void kiln_bins_footprint(uint32_t width, uint32_t height, uint64_t sprites,
+                         struct kiln_footprint *footprint);
 
 #endif

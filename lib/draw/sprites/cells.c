@@ -248,6 +248,24 @@ struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln
     return cells;
 }
 
+void kiln_cells_footprint(uint64_t layers, bool mixed, struct kiln_footprint *footprint)
+{
+    const struct kiln_cells *c = NULL;
+    uint64_t texels = 0, channels = 0;
+    for (uint32_t level = 0; level < KILN_CELL_LEVELS; level++) {
+        const bool is_mixed = mixed && level >= KILN_CELL_MIXED_LEVEL;
+        texels += (is_mixed ? KILN_CELL_PHASES : 1) * kiln_cells_texels(kiln_cell_edge(level));
+    }
+    for (enum kiln_cell_form form = 0; form < KILN_CELL_FORMS; form++)
+        channels += kiln_cell_channels(form);
+    const uint64_t of_slot = sizeof *c->sources + sizeof *c->requested + sizeof *c->texels +
+                             sizeof *c->missing + sizeof *c->hulls / KILN_CELL_PHASES;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, layers * KILN_CELL_NUMBERS, of_slot);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, layers, 2 * channels * texels);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, layers,
+                       KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION));
+}
+
 void kiln_cells_destroy(struct kiln_cells **cells)
 {
     struct kiln_cells *c = *cells;

@@ -15,6 +15,7 @@
 #include <stdatomic.h>
 
 #include "asset/atlas/atlas.h"
+#include "base/footprint.h"
 #include "base/thread.h"
 
 enum {
@@ -69,6 +70,10 @@ struct kiln_cell_hull {
 /* Prepares the cells of an atlas: finds hulls and lays out motion. The atlas must outlive the
  * result. Returns NULL with an error. */
 struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error);
+
+/* Adds the memory of the cells of an atlas of so many layers. mixed: some systems are large enough
+ * for mixed cells. */
+void kiln_cells_footprint(uint64_t layers, bool mixed, struct kiln_footprint *footprint);
 void kiln_cells_destroy(struct kiln_cells **cells);
 
 /* Returns the number of a cell, which will exist after the next kiln_cells_mix. Any thread may call

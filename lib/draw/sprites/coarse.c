@@ -18,11 +18,17 @@ struct kiln_coarse_stage {
     struct kiln_coarse_gl *gl;
 };
 
+/* Returns the pixels of a frame along the edge of a pixel of the coarse picture. */
+static uint32_t factor_of(const struct kiln_scene *scene)
+{
+    return scene->post.resolution == KILN_RESOLUTION_HALF ? 2 : 4;
+}
+
 static bool init_images(struct kiln_coarse_stage *stage, const struct kiln_scene *scene,
                         GLenum format, struct kiln_error *error)
 {
     struct kiln_coarse_images *images = &stage->images;
-    const uint32_t factor = scene->post.resolution == KILN_RESOLUTION_HALF ? 2 : 4;
+    const uint32_t factor = factor_of(scene);
     const uint32_t width = (scene->width + factor - 1) / factor;
     const uint32_t height = (scene->height + factor - 1) / factor;
     images->factor = factor;
@@ -68,6 +74,19 @@ struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
     if (!stage->gl && !stage->cpu)
         kiln_coarse_destroy(&stage);
     return stage;
+}
+
+void kiln_coarse_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    if (scene->post.resolution == KILN_RESOLUTION_FULL)
+        return;
+    const uint32_t factor = factor_of(scene);
+    const uint64_t width = (scene->width + factor - 1) / factor;
+    const uint64_t coarse = width * ((scene->height + factor - 1) / factor);
+    const uint64_t fine = scene->post.mixed_resolution ? (uint64_t)scene->width * scene->height : 0;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, coarse, (4 + 4 + 1 + 1) * sizeof(float));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, coarse, sizeof(uint32_t)); /* nonplanar */
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, fine, (4 + 4 + 1) * sizeof(float));
 }
 
 void kiln_coarse_destroy(struct kiln_coarse_stage **stage)

@@ -5,6 +5,7 @@
 #ifndef KILN_DRAW_SPRITES_COARSE_H
 #define KILN_DRAW_SPRITES_COARSE_H
 
+#include "base/footprint.h"
 #include "draw/sprites/particles.h"
 
 struct kiln_coarse_stage;
@@ -24,6 +25,9 @@ struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
                                              const struct kiln_coarse_params *params,
                                              struct kiln_threads *threads,
                                              struct kiln_error *error);
+
+/* Adds the memory of the stage on the host; nothing if the scene has no such stage. */
+void kiln_coarse_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_coarse_destroy(struct kiln_coarse_stage **stage);
 
 /* Measures the depth of the scene for the next calls of kiln_coarse_run. */

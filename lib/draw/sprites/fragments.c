@@ -46,6 +46,15 @@ struct kiln_fragments *kiln_fragments_create(enum kiln_simd simd)
     return f;
 }
 
+uint64_t kiln_fragments_bytes(enum kiln_simd simd)
+{
+    const struct kiln_fragments *f = NULL;
+    const struct kiln_packet_code *code = KILN_SIMD_PICK(kiln_packet_code, simd);
+    const uint64_t lanes = (uint64_t)code->lanes, room = KILN_PACKET_PIXELS / lanes;
+    return sizeof *f->scratch + room * (code->size + sizeof *f->packets.places + sizeof *f->lists) +
+           (2 * room + KILN_PACKET_SORT_BLOCK) * lanes * sizeof *f->packets.keys;
+}
+
 void kiln_fragments_destroy(struct kiln_fragments **fragments)
 {
     struct kiln_fragments *f = *fragments;

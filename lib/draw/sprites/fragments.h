@@ -9,6 +9,9 @@ struct kiln_fragments;
 
 /* Returns NULL when memory is short. */
 struct kiln_fragments *kiln_fragments_create(enum kiln_simd simd);
+
+/* Returns the bytes of one such scratch memory. */
+uint64_t kiln_fragments_bytes(enum kiln_simd simd);
 void kiln_fragments_destroy(struct kiln_fragments **fragments);
 
 /* Blends sprites into the tile. The fragments of a pixel are blended from the farthest to the

@@ -11,6 +11,7 @@
 #include "draw/sprites/bins.h"
 #include "draw/sprites/fragments.h"
 #include "draw/sprites/stream.h"
+#include "scene/work.h"
 
 enum {
     SPRITES_AT_A_TIME = 1 << 20, /* sprites of a piece */
@@ -98,6 +99,31 @@ struct kiln_raster_cpu *kiln_raster_cpu_create(const struct kiln_scene *scene,
         kiln_raster_cpu_destroy(&tiles);
     }
     return tiles;
+}
+
+void kiln_raster_cpu_footprint(const struct kiln_scene *scene, uint64_t layers,
+                               struct kiln_footprint *footprint)
+{
+    const bool by_fragment = scene->post.compose == KILN_COMPOSE_OIT;
+    const uint64_t slots = kiln_scene_sprite_slots(scene);
+    const uint64_t most = by_fragment ? SORTED_AT_A_TIME : SPRITES_AT_A_TIME;
+    const uint64_t sprites = slots < most ? slots : most;
+    /* draw_sorted keeps what one tile may have, besides the sprites of a piece */
+    const uint64_t kept = !by_fragment ? 0 : slots < SPRITES_OF_A_TILE ? slots : SPRITES_OF_A_TILE;
+    const uint64_t listed = kept > sprites ? kept : sprites;
+    bool mixed = false;
+    enum kiln_simd simd;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        mixed |= scene->systems[i].capacity >= KILN_CELL_MIXED_LEAST;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, sprites + kept,
+                       sizeof(struct kiln_sprite) + sizeof(struct kiln_sprite_extra));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, footprint->threads,
+                       sizeof(struct kiln_tile));
+    if (by_fragment && kiln_simd_choose(&simd, NULL))
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, footprint->threads,
+                           kiln_fragments_bytes(simd));
+    kiln_bins_footprint(scene->width, scene->height, listed, footprint);
+    kiln_cells_footprint(layers, mixed, footprint);
 }
 
 void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles)
@@ -305,40 +331,6 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
         draw_tile(d, d->first_tile + number, worker);
 }
 
-/* ---- a pass ---------------------------------------------------------------------------------- */
-
-/* Lists the sprites from `begin` to *end, or fewer where pixels need not all sprites at once. */
-static bool list_sprites(struct kiln_raster_cpu *tiles, bool by_fragment, uint32_t begin,
-                         uint32_t *end, struct kiln_error *error)
-{
-    return by_fragment ? kiln_bins_fill(&tiles->bins, begin, *end, tiles->threads, error)
-                       : kiln_bins_fill_some(&tiles->bins, begin, end, tiles->threads, error);
-}
-
-static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_pass *pass,
-                       const uint32_t *entries, uint32_t count, struct tile_job *tile_job,
-                       struct kiln_error *error)
-{
-    struct sprite_job job = {tiles->make, pass, entries, tiles->sprites, &tiles->bins};
-    if (!kiln_bins_begin(&tiles->bins, count, error))
-        return false;
-    kiln_threads_for(tiles->threads, count, GRAIN, make_sprites, &job);
-    if (!kiln_cells_mix(tiles->cells, tiles->threads, error))
-        return false;
-    const size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
-    uint32_t begin = 0, most = count;
-    do { /* at least once, to clear the picture if there are no particles */
-        uint32_t end = count - begin < most ? count : begin + most;
-        if (!list_sprites(tiles, tile_job->by_fragment, begin, &end, error) ||
-            !kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error))
-            return false;
-        most = end - begin;
-        begin = end;
-        tile_job->first = false;
-    } while (begin < count);
-    return true;
-}
-
 /* ---- sorted pixels with more sprites than a piece -------------------------------------------- */
 
 /* Holds the state of drawing a pass with by_fragment that has more sprites than a piece. Sorting a
@@ -355,17 +347,18 @@ struct sorted_pass {
     uint32_t selected_count;
 };
 
-/* Makes the sprites and the bins of a piece. Returns the number of sprites, or 0 with an error. */
+/* Makes the sprites and the bins of a piece, of fewer sprites where the bins would need much
+ * memory. Returns the number of sprites, or 0 with an error. */
 static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct kiln_error *error)
 {
     const uint32_t left = s->count - first;
-    const uint32_t count = left < SORTED_AT_A_TIME ? left : SORTED_AT_A_TIME;
+    uint32_t count = left < SORTED_AT_A_TIME ? left : SORTED_AT_A_TIME;
     struct kiln_bins *bins = &s->tiles->bins;
     struct sprite_job job = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites, bins};
     if (!kiln_bins_begin(bins, count, error))
         return 0;
     kiln_threads_for(s->tiles->threads, count, GRAIN, make_sprites, &job);
-    return kiln_bins_fill(bins, 0, count, s->tiles->threads, error) ? count : 0;
+    return kiln_bins_fill_some(bins, 0, &count, s->tiles->threads, error) ? count : 0;
 }
 
 /* Counts the sprites of each tile, and mixes the cells that they want. Returns false with an error
@@ -433,7 +426,8 @@ static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t 
     bool ok = kiln_bins_begin(&tiles->bins, s->selected_count, error);
     if (ok)
         kiln_bins_note(&tiles->bins, s->selected.sprites, 0, s->selected_count);
-    ok = ok && kiln_bins_fill(&tiles->bins, 0, s->selected_count, tiles->threads, error);
+    ok = ok && kiln_bins_fill_tiles(&tiles->bins, s->selected_count, first_tile, end_tile,
+                                    tiles->threads, error);
     job->first_tile = first_tile;
     ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, job, error);
     tiles->sprites = piece;
@@ -464,6 +458,38 @@ static bool draw_sorted(struct sorted_pass *s, struct tile_job *job, struct kiln
     free(s->is_selected);
     free(s->totals);
     return ok;
+}
+
+/* ---- a pass ---------------------------------------------------------------------------------- */
+
+static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_pass *pass,
+                       const uint32_t *entries, uint32_t count, struct tile_job *tile_job,
+                       struct kiln_error *error)
+{
+    struct sprite_job job = {tiles->make, pass, entries, tiles->sprites, &tiles->bins};
+    if (!kiln_bins_begin(&tiles->bins, count, error))
+        return false;
+    kiln_threads_for(tiles->threads, count, GRAIN, make_sprites, &job);
+    if (!kiln_cells_mix(tiles->cells, tiles->threads, error))
+        return false;
+    const size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
+    uint32_t begin = 0, most = count;
+    do { /* at least once, to clear the picture if there are no particles */
+        uint32_t end = count - begin < most ? count : begin + most;
+        if (!kiln_bins_fill_some(&tiles->bins, begin, &end, tiles->threads, error))
+            return false;
+        if (tile_job->by_fragment && end < count) /* pixels need all their sprites at once */
+            return draw_sorted(
+                &(struct sorted_pass){
+                    .tiles = tiles, .pass = pass, .entries = entries, .count = count},
+                tile_job, error);
+        if (!kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error))
+            return false;
+        most = end - begin;
+        begin = end;
+        tile_job->first = false;
+    } while (begin < count);
+    return true;
 }
 
 /* Writes a system's bloom weights and returns true if they are the same at any age. */

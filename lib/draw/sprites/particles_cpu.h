@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_SPRITES_PARTICLES_CPU_H
 #define KILN_DRAW_SPRITES_PARTICLES_CPU_H
 
+#include "base/footprint.h"
 #include "draw/sprites/particles.h"
 
 struct kiln_raster_cpu;
@@ -12,6 +13,10 @@ struct kiln_raster_cpu *kiln_raster_cpu_create(const struct kiln_scene *scene,
                                                const struct kiln_atlas *atlas,
                                                struct kiln_threads *threads,
                                                struct kiln_error *error);
+
+/* Adds the memory of drawing a scene whose atlas has so many layers. */
+void kiln_raster_cpu_footprint(const struct kiln_scene *scene, uint64_t layers,
+                               struct kiln_footprint *footprint);
 void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles);
 
 /* Returns whether covering particles can be drawn apart, as kiln_particles_splits does: where tiles

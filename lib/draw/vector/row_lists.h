@@ -1,22 +1,36 @@
 /* A kiln_row_lists holds a list for each band of rows of a picture: the items that touch the band,
- * in the order of their numbers. With it, threads draw bands independently. */
+ * in the order of their numbers. With it, threads draw bands independently. The lists of some bands
+ * are made at a time, so that their memory is bounded however many bands the items touch. */
 #ifndef KILN_DRAW_VECTOR_ROW_LISTS_H
 #define KILN_DRAW_VECTOR_ROW_LISTS_H
 
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/footprint.h"
 #include "kiln.h"
 #include "shared/exact.h"
+
+/* The most entries of the lists that are made at a time; a single band may have more. */
+enum { KILN_ROW_LISTS_MOST = 1 << 22 };
 
 /* Holds the rows, or the columns, from .. to - 1. */
 struct kiln_row_range {
     int16_t from, to;
 };
 
+/* Items of a picture, divided into bands of band_height rows. */
+struct kiln_row_items {
+    const struct kiln_row_range *ranges; /* the rows of each item, all within the picture; an item
+                                          * with an empty range is in no list */
+    uint32_t count, height, band_height;
+};
+
 struct kiln_row_lists {
     uint32_t bands;
-    size_t *first; /* where each band's list begins in `list`, then the last one's end */
+    uint32_t begin, end; /* the bands that have their lists now */
+    size_t *first;       /* entries of all bands before each one, and of all */
+    size_t *next;        /* scratch: by band */
     uint32_t *list;
     size_t room, band_room;
 };
@@ -31,12 +45,28 @@ static inline struct kiln_row_range kiln_row_range_between(float low, float high
                                    (int16_t)exact_clamp(high + 1.0f, 0.0f, size)};
 }
 
-/* Lists `count` items by bands of band_height rows. ranges: the rows of each item, all within the
- * picture; an item with an empty range is in no list. The lists start as zeros and may be filled
- * again. False with an error: no memory. */
-bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_range *ranges,
-                         uint32_t count, uint32_t height, uint32_t band_height,
+/* Counts the items of each band. The lists start as zeros and may be used again.
+ * kiln_row_lists_next makes lists while `end` is less than `bands`. False with an error: no memory.
+ */
+bool kiln_row_lists_start(struct kiln_row_lists *lists, const struct kiln_row_items *items,
+                          struct kiln_error *error);
+
+/* Makes the lists of the next bands, `begin` to `end` - 1. */
+bool kiln_row_lists_next(struct kiln_row_lists *lists, const struct kiln_row_items *items,
                          struct kiln_error *error);
+
+/* Returns the list of a band that has one now, and its length. */
+static inline const uint32_t *kiln_row_lists_of(const struct kiln_row_lists *lists, size_t band,
+                                                size_t *count)
+{
+    *count = lists->first[band + 1] - lists->first[band];
+    return lists->list + (lists->first[band] - lists->first[lists->begin]);
+}
+
 void kiln_row_lists_finish(struct kiln_row_lists *lists);
+
+/* Adds the memory of the lists of `count` items in so many bands. */
+void kiln_row_lists_footprint(uint64_t count, uint64_t bands, enum kiln_footprint_part part,
+                              struct kiln_footprint *footprint);
 
 #endif

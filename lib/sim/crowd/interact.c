@@ -197,11 +197,11 @@ static bool choose_loops(struct kiln_interact *interact, struct kiln_error *erro
 }
 
 /* Returns the capacity of the largest system that interacts or whose particles pull another's. */
-static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln_sim_params *params)
+static uint32_t largest_system(const struct kiln_scene *scene)
 {
     uint32_t largest = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (!params->systems[i].pushed)
+        if (scene->systems[i].interaction_count == 0)
             continue;
         const struct kiln_interaction *gravity =
             kiln_scene_interaction(scene, i, KILN_INTERACT_GRAVITY);
@@ -216,40 +216,58 @@ static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln
 
 /* Returns the number of bodies to allocate. Balls that spin take two each
  * (shared/interact_layout.h). */
-static size_t count_bodies(const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                           uint32_t largest)
+static size_t count_bodies(const struct kiln_scene *scene, uint32_t largest)
 {
     size_t most = largest;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const size_t own = 2 * (size_t)scene->systems[i].capacity;
-        if (params->systems[i].spins && own > most)
+        if (kiln_scene_system_spins(scene, i) && own > most)
             most = own;
     }
     return most;
 }
 
+/* Holds the sizes of buffers, in elements. */
+struct sizes {
+    uint64_t pushes, bodies, cells, entries, partners, order, accelerations;
+};
+
+static struct sizes sizes_of(const struct kiln_scene *scene)
+{
+    const uint32_t largest = largest_system(scene);
+    struct sizes sizes = {
+        .bodies = count_bodies(scene, largest),
+        .cells = (largest ? count_cells(largest) : 0) + (uint64_t)1,
+        .entries = largest ? 2 * (uint64_t)kiln_interact_entries(largest) : 0,
+        .partners = largest,
+        .order = 2 * (uint64_t)largest,
+        .accelerations = (uint64_t)largest + KILN_GRAVITY_BLOCK,
+    };
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const uint64_t capacity = scene->systems[i].capacity;
+        sizes.pushes += scene->systems[i].interaction_count > 0 ? 2 * capacity : 0;
+    }
+    return sizes;
+}
+
 bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
-                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                        struct kiln_threads *threads, struct kiln_error *error)
+                        const struct kiln_scene *scene, struct kiln_threads *threads,
+                        struct kiln_error *error)
 {
     *interact = (struct kiln_interact){.scene = scene, .device = device, .threads = threads};
-    const uint32_t largest = largest_system(scene, params);
-    const size_t bodies = count_bodies(scene, params, largest) * sizeof(struct kiln_body);
-    const size_t cells = largest ? count_cells(largest) : 0;
-    const size_t entries = largest ? kiln_interact_entries(largest) : 0;
-    kiln_buffer_init(&interact->pushes, device, (size_t)params->push_count * 2 * sizeof(float4),
-                     "pushes");
+    const struct sizes sizes = sizes_of(scene);
+    const size_t bodies = sizes.bodies * sizeof(struct kiln_body);
+    kiln_buffer_init(&interact->pushes, device, sizes.pushes * sizeof(float4), "pushes");
     kiln_buffer_init(&interact->bodies, device, bodies, "bodies");
     kiln_buffer_init(&interact->second, device, bodies + KILN_FLOCK_ROOM, "bodies, second");
-    interact->half = (uint32_t)entries;
-    kiln_buffer_init(&interact->cells, device, (cells + 1) * sizeof(uint32_t), "cells of bodies");
-    kiln_buffer_init(&interact->partners, device, largest * sizeof(uint32_t), "partners");
-    kiln_buffer_init(&interact->entries, device, 2 * entries * ENTRY_BYTES, "bodies in grids");
-    kiln_buffer_init(&interact->order, device, (size_t)largest * 2 * sizeof(uint32_t),
-                     "order of a grid");
+    interact->half = (uint32_t)(sizes.entries / 2);
+    kiln_buffer_init(&interact->cells, device, sizes.cells * sizeof(uint32_t), "cells of bodies");
+    kiln_buffer_init(&interact->partners, device, sizes.partners * sizeof(uint32_t), "partners");
+    kiln_buffer_init(&interact->entries, device, sizes.entries * ENTRY_BYTES, "bodies in grids");
+    kiln_buffer_init(&interact->order, device, sizes.order * sizeof(uint32_t), "order of a grid");
     kiln_buffer_init(&interact->contact_scratch, NULL, 0, "scratch of contacts");
-    kiln_buffer_init(&interact->accelerations, NULL,
-                     ((size_t)largest + KILN_GRAVITY_BLOCK) * sizeof(float3), "accelerations");
+    kiln_buffer_init(&interact->accelerations, NULL, sizes.accelerations * sizeof(float3),
+                     "accelerations");
     kiln_buffer_init(&interact->block, device, sizeof(struct kiln_interact_params),
                      "interaction parameters");
     if (!device)
@@ -260,7 +278,17 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
             "systems: particles that interact need %zu bytes in one piece; %s allows %" PRId64
             "; use simulate=cpu",
             bodies, device->info.name, (int64_t)device->info.max_storage_block_bytes);
-    return largest == 0 || kiln_interact_gl_init(interact, error);
+    return sizes.partners == 0 || kiln_interact_gl_init(interact, error);
+}
+
+void kiln_interact_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct sizes sizes = sizes_of(scene);
+    const uint64_t bytes = sizes.pushes * sizeof(float4) +
+                           2 * sizes.bodies * sizeof(struct kiln_body) +
+                           (sizes.cells + sizes.partners + sizes.order) * sizeof(uint32_t) +
+                           sizes.entries * ENTRY_BYTES + sizes.accelerations * sizeof(float3);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, 1, bytes);
 }
 
 void kiln_interact_finish(struct kiln_interact *interact)

@@ -4,6 +4,7 @@
 #ifndef KILN_SIM_CROWD_INTERACT_H
 #define KILN_SIM_CROWD_INTERACT_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "shared/interact_layout.h"
 #include "sim/crowd/flock.h"
@@ -81,8 +82,11 @@ struct kiln_interact {
 /* Prepares the pushes of a scene. Nothing is allocated if no system interacts. kiln_interact_finish
  * frees everything, also after a failure. */
 bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
-                        const struct kiln_scene *scene, const struct kiln_sim_params *params,
-                        struct kiln_threads *threads, struct kiln_error *error);
+                        const struct kiln_scene *scene, struct kiln_threads *threads,
+                        struct kiln_error *error);
+
+/* Adds the memory of the interactions of a scene on the host. */
+void kiln_interact_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_interact_finish(struct kiln_interact *interact);
 
 /* Computes the pushes of a step with these parameters from the state before it. keys: the scene's

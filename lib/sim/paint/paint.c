@@ -57,6 +57,23 @@ bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
     return true;
 }
 
+void kiln_paint_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const struct kiln_paint *p = NULL;
+    const uint32_t slots = kiln_scene_paint_slots(scene);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, slots,
+                       sizeof *p->made + sizeof *p->turns);
+    for (uint32_t i = 0; i < scene->backdrop.object_count && slots > 0; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (!kiln_object_takes_paint(object))
+            continue;
+        const uint32_t edge = object->paint.size;
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1, kiln_chart_bytes(edge));
+        kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS, kiln_chart_making_bytes(edge));
+        kiln_paint_grid_footprint(edge, slots, footprint);
+    }
+}
+
 void kiln_paint_finish(struct kiln_paint *paint)
 {
     for (uint32_t i = 0; i < paint->mesh_count; i++) {

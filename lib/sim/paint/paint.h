@@ -26,6 +26,9 @@ struct kiln_paint {
  * kiln_paint_finish frees everything, also after a failure. */
 bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
                      struct kiln_threads *threads, struct kiln_error *error);
+
+/* Adds the memory of the paint of a scene, without canvases. */
+void kiln_paint_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_paint_finish(struct kiln_paint *paint);
 
 /* Paints the pool's canvases after a step with these parameters, which left these traces. */

@@ -25,7 +25,8 @@ enum {
     /* Most entries of all lists together. If there would be more, no lists are written, and every
      * block tests every splat. */
     MOST_LISTED = 1 << 26,
-    BLOCKS_AT_A_TIME = 16 /* blocks that a thread takes at once */
+    BLOCKS_AT_A_TIME = 16, /* blocks that a thread takes at once */
+    BLOCKS_OF_A_SPLAT = 8, /* that a splat may reach, as the memory is estimated */
 };
 
 /* ---- the grid -------------------------------------------------------------------------------- */
@@ -93,6 +94,19 @@ bool kiln_paint_grid_init(struct kiln_paint_grid *grid, const struct kiln_chart 
     for (uint32_t b = 0; b < chart->block_count; b++)
         grid->blocks[ends[cell_of(grid, grid->middle[b])]++] = b;
     return true;
+}
+
+void kiln_paint_grid_footprint(uint32_t edge, uint64_t splats, struct kiln_footprint *footprint)
+{
+    const struct kiln_paint_grid *g = NULL;
+    const uint64_t blocks = ((uint64_t)edge * edge + KILN_CHART_BLOCK - 1) / KILN_CHART_BLOCK;
+    const uint64_t of_block = sizeof *g->middle + sizeof *g->blocks + CHUNKS * sizeof *g->ends;
+    const uint64_t listed =
+        splats < MOST_LISTED / BLOCKS_OF_A_SPLAT ? splats * BLOCKS_OF_A_SPLAT : MOST_LISTED;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, blocks, of_block);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, CELLS * CELLS * CELLS + 2,
+                       sizeof *g->first);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, listed, sizeof *g->list);
 }
 
 void kiln_paint_grid_finish(struct kiln_paint_grid *grid)

@@ -33,6 +33,10 @@ bool kiln_paint_grid_init(struct kiln_paint_grid *grid, const struct kiln_chart 
                           struct kiln_error *error);
 void kiln_paint_grid_finish(struct kiln_paint_grid *grid);
 
+/* Adds the memory of the grid of a chart of edge * edge texels, onto which up to `splats` splats
+ * are painted in a step. */
+void kiln_paint_grid_footprint(uint32_t edge, uint64_t splats, struct kiln_footprint *footprint);
+
 /* The threads and loops of a gather. */
 struct kiln_paint_gather {
     struct kiln_threads *threads;

@@ -89,14 +89,25 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
     kiln_buffer_init(&simulate->traces, side,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
-    ok = ok &&
-         kiln_interact_init(&simulate->interact, side, scene, &simulate->params, threads, error) &&
+    ok = ok && kiln_interact_init(&simulate->interact, side, scene, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
     ok = ok &&
          (simulate->row ? init_on_device(simulate, device, error) : choose_loop(simulate, error));
     if (!ok)
         kiln_simulate_destroy(&simulate);
     return simulate;
+}
+
+void kiln_simulate_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        if (kiln_sim_is_traced(scene, i))
+            kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, scene->systems[i].capacity,
+                               sizeof(struct kiln_trace));
+    }
+    kiln_sim_grids_footprint(scene, footprint);
+    kiln_interact_footprint(scene, footprint);
+    kiln_paint_footprint(scene, footprint);
 }
 
 void kiln_simulate_destroy(struct kiln_simulate **simulate)

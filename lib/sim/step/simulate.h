@@ -23,6 +23,9 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            enum kiln_simulate_technique technique,
                                            struct kiln_threads *threads, struct kiln_error *error);
+
+/* Adds the memory of the technique `cpu`, without pools. */
+void kiln_simulate_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_simulate_destroy(struct kiln_simulate **simulate);
 
 /* Runs step number `step` (1, 2, ...) on the pool, which must be the same one in every call. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "asset/geometry/grid_in.h"
+#include "asset/geometry/nearest.h"
 #include "shared/exact.h"
 #include "sim/world/papers/papers.h"
 
@@ -237,6 +238,23 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
         kiln_volumes_init(&grids->volumes, device, scene, error);
     free_sources(&sources);
     return ok;
+}
+
+void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    /* The sources, which are freed when all words are copied, take about as much as the words. */
+    uint64_t making = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *object = &scene->backdrop.objects[i];
+        if (!kiln_sim_grids_needs(object) || object->kind != KILN_OBJECT_MESH)
+            continue;
+        const uint64_t bytes = kiln_nearest_bytes(object->collision_mesh);
+        making = bytes > making ? bytes : making;
+    }
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, scene->samples, sizeof(float4));
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
+                        scene->samples * sizeof(struct kiln_terrain_point) + making);
+    kiln_volumes_footprint(scene, footprint);
 }
 
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids)

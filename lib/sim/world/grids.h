@@ -4,6 +4,7 @@
 #ifndef KILN_SIM_WORLD_GRIDS_H
 #define KILN_SIM_WORLD_GRIDS_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "gpu/buffer.h"
 #include "sim/world/mesh_row.h"
@@ -30,6 +31,9 @@ struct kiln_sim_grids {
 bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
                          const struct kiln_scene *scene, struct kiln_threads *threads,
                          struct kiln_error *error);
+
+/* Adds the memory of the grids of a scene on the host. */
+void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
 
 /* Returns whether an object needs a grid that does not change during a run. */

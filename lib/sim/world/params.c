@@ -159,6 +159,11 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
     }
 }
 
+bool kiln_sim_is_traced(const struct kiln_scene *scene, uint32_t system)
+{
+    return kiln_family_has_children(scene, system) || kiln_scene_paints(scene, system);
+}
+
 /* Fills in the family parameters. Parents come first, so that their traces have places before their
  * children's are filled in. */
 static void fill_families(struct kiln_sim_params *params, const struct kiln_scene *scene)
@@ -179,7 +184,7 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
             family->rate = parent->rate;
             family->parent_traces = params->systems[parent->system].family.traces;
         }
-        if (kiln_family_has_children(scene, index) || kiln_scene_paints(scene, index)) {
+        if (kiln_sim_is_traced(scene, index)) {
             family->traced = 1;
             family->traces = params->trace_count;
             params->trace_count += system->capacity;

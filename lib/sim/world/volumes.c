@@ -3,6 +3,7 @@
  * lattices in one buffer. */
 #include "sim/world/volumes.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -100,6 +101,38 @@ bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
             return false;
     }
     return true;
+}
+
+/* Adds the memory of one volume. The lattice may stand at any angle to the mesh, so it is taken for
+ * a cube around the diagonal of the mesh's box. */
+static void add_footprint(const struct kiln_object *object, struct kiln_footprint *footprint)
+{
+    const struct kiln_volume *v = NULL;
+    const struct kiln_mesh *mesh = object->collision_mesh;
+    double longest = 0.0, square = 0.0;
+    for (int c = 0; c < 3; c++) {
+        const double size = (double)mesh->max[c] - (double)mesh->min[c];
+        longest = size > longest ? size : longest;
+        square += size * size;
+    }
+    const double around = longest > 0.0 ? sqrt(square) / longest * object->cells + 4.0 : 4.0;
+    const double edge = fmin(around, KILN_MAX_VOXEL_EDGE);
+    const uint64_t cells = (uint64_t)fmin(edge * edge * edge, KILN_MAX_VOXEL_CELLS);
+    const uint64_t planes = (uint64_t)(6.0 * edge * edge);
+    const uint64_t words = (cells + 3) / 4 + 3 * planes;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1, kiln_mesh_bytes(mesh));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, mesh->vertex_count,
+                       sizeof *v->before + sizeof *v->after);
+    kiln_voxels_footprint(mesh->vertex_count, mesh->triangle_count, cells, planes, footprint);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, words + words / 2, sizeof(float4));
+}
+
+void kiln_volumes_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        if (kiln_volumes_needs(&scene->backdrop.objects[i]))
+            add_footprint(&scene->backdrop.objects[i], footprint);
+    }
 }
 
 void kiln_volumes_finish(struct kiln_volumes *volumes)

@@ -3,6 +3,7 @@
 #ifndef KILN_SIM_WORLD_VOLUMES_H
 #define KILN_SIM_WORLD_VOLUMES_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "gpu/buffer.h"
 #include "scene/scene.h"
@@ -25,6 +26,9 @@ bool kiln_volumes_needs(const struct kiln_object *object);
  * short. kiln_volumes_finish frees everything, also after a failure. */
 bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
                        const struct kiln_scene *scene, struct kiln_error *error);
+
+/* Adds the memory of the volumes of a scene on the host. */
+void kiln_volumes_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 void kiln_volumes_finish(struct kiln_volumes *volumes);
 
 /* Makes the volumes of a step; the result is the same for any number of threads. Meshes that do not

@@ -147,6 +147,19 @@ static bool reserve_planes(struct kiln_voxels *v, struct kiln_error *error)
     return grow((void **)&v->planes, s->plane_capacity, sizeof *v->planes, error);
 }
 
+void kiln_voxels_footprint(uint64_t vertices, uint64_t triangles, uint64_t cells, uint64_t planes,
+                           struct kiln_footprint *footprint)
+{
+    const struct kiln_voxels_scratch *s = NULL;
+    const struct kiln_voxels *v = NULL;
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, vertices,
+                       sizeof *s->before + sizeof *s->after);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, triangles, sizeof *s->layers);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, cells,
+                       sizeof *s->claims + sizeof *s->near + sizeof *s->nearer + sizeof *v->marks);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, planes + planes / 2, sizeof *v->planes);
+}
+
 void kiln_voxels_finish(struct kiln_voxels *voxels)
 {
     struct kiln_voxels_scratch *s = voxels->scratch;

@@ -4,6 +4,7 @@
 #ifndef KILN_SIM_WORLD_VOXELS_H
 #define KILN_SIM_WORLD_VOXELS_H
 
+#include "base/footprint.h"
 #include "base/thread.h"
 #include "kiln.h"
 #include "shared/layout.h"
@@ -65,5 +66,9 @@ struct kiln_voxels {
 bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_input *input,
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_voxels_finish(struct kiln_voxels *voxels);
+
+/* Adds the memory of a lattice of `cells` cells, of which `planes` have a plane. */
+void kiln_voxels_footprint(uint64_t vertices, uint64_t triangles, uint64_t cells, uint64_t planes,
+                           struct kiln_footprint *footprint);
 
 #endif
