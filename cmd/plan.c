@@ -31,7 +31,7 @@ static const struct option options[] = {
      .kind = OPTION_INTEGER,
      .placeholder = "N",
      .help = "The frame to measure.",
-     .fallback = "the middle frame",
+     .fallback = "the lightest and the heaviest frame",
      .max = UINT32_MAX},
     SIZE_OPTION,
     FPS_OPTION,
@@ -227,9 +227,11 @@ const struct command plan_command = {
     .name = "plan",
     .summary = "estimate what a clip costs, and divide it into tasks",
     .operands = "SCENE",
-    .description = "Draws one frame and estimates from its times what each of N tasks would do: "
-                   "its parts of the clip, its frames, the steps to them, seconds of CPU and "
-                   "memory. Encoding is not measured.",
+    .description =
+        "Draws two frames, that with the least and that with the most work, and estimates "
+        "from their times what each of N tasks would do: "
+        "its parts of the clip, its frames, the steps to them, seconds of CPU and "
+        "memory. Encoding is not measured.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -135,14 +135,15 @@ KILN_API bool kiln_encode(const struct kiln_encode_params *params, struct kiln_f
 
 /* ---- Plans ---------------------------------------------------------------------------------- */
 
-/* The cost of a scene, measured by drawing one of its frames. CPU times are sums over all threads.
- */
+/* The cost of a scene, measured by drawing its lightest and its heaviest frame, as its births tell
+ * them, or the one that the caller chose. CPU times are sums over all threads. */
 struct kiln_plan {
     size_t size;
     uint32_t parts, part_frames; /* number of parts of the clip; frames of each but the last */
-    uint32_t frame;              /* the frame that was drawn */
-    uint64_t steps;              /* steps that were made to reach that frame */
-    double setup_cpu_s;          /* time of making programs, textures and buffers */
+    uint32_t frame;              /* the heaviest frame, or the chosen one */
+    uint64_t steps;              /* steps that were made to reach the frames */
+    double setup_cpu_s;          /* time of loading the scene, and of making programs, textures
+                                  * and buffers */
     double step_cpu_s;           /* mean time of a step */
     double frame_cpu_s;          /* time of a frame without its steps and its encoding */
     uint64_t memory_bytes;       /* peak memory of the process */
@@ -168,7 +169,7 @@ struct kiln_plan_params {
     size_t size;
     uint32_t tasks;                /* at least 1 */
     const char *states;            /* a folder of kiln_bake, or NULL */
-    int64_t frame;                 /* the frame to measure; -1: the middle one */
+    int64_t frame;                 /* the frame to measure; -1: two of them */
     const char *const *techniques; /* "stage=name" */
     size_t technique_count;
     uint32_t threads;         /* 0 takes one a core */

@@ -1,4 +1,6 @@
-/* Plans a clip: measures what a frame and a step cost, and divides the clip into tasks. */
+/* Plans a clip: measures what frames and steps cost, and divides the clip into tasks. The frames
+ * are those with the least and the most work, as the births of the scene tell it. The costs of all
+ * other frames lie between, by their work. */
 #include <string.h>
 #include <sys/resource.h>
 
@@ -9,8 +11,17 @@
 #include "job/shard.h"
 #include "job/states.h"
 #include "job/stop.h"
+#include "job/workload.h"
 #include "scene/instant.h"
 #include "scene/motion.h"
+
+/* A frame that takes longer is drawn only once. */
+static const double LONG_FRAME_S = 2.0;
+
+/* What was measured, and the work that it was. */
+struct sample {
+    double work, cpu_s;
+};
 
 struct planning {
     struct kiln_device *device;
@@ -19,6 +30,10 @@ struct planning {
     struct kiln_stop stop;
     struct kiln_loop *loop;
     struct kiln_states *states; /* saved states to start from; NULL: none */
+    struct kiln_workload *workload;
+    struct sample frames[2]; /* by their work; the last is that of plan->frame */
+    uint32_t frame_count;
+    struct sample steps; /* all that were measured */
     struct kiln_plan *plan;
 };
 
@@ -52,40 +67,107 @@ static bool set_up(struct planning *p, struct kiln_error *error)
     const struct kiln_output_needs needs = {.bits = 8};
     if (!kiln_loop_set_up(p->loop, needs, error))
         return false;
-    p->plan->setup_cpu_s = kiln_clock_cpu_seconds() - before_s;
+    p->plan->setup_cpu_s = p->scene->loading_cpu_s + kiln_clock_cpu_seconds() - before_s;
     return true;
 }
 
-/* Measures one frame and its steps. The frame is drawn twice, since the first drawing fills caches
- * that later frames use. Where no step led to the frame, the step to the next frame is measured. */
+/* Advances to a frame, and measures the steps. */
+static bool advance(struct planning *p, uint32_t frame, struct kiln_error *error)
+{
+    const uint64_t steps = kiln_loop_steps(p->loop);
+    const double before_s = kiln_clock_cpu_seconds();
+    if (!kiln_loop_advance(p->loop, frame, error))
+        return false;
+    const uint32_t end = kiln_scene_frame_step(p->scene, frame);
+    const uint32_t count = (uint32_t)(kiln_loop_steps(p->loop) - steps);
+    p->steps.cpu_s += kiln_clock_cpu_seconds() - before_s;
+    p->steps.work += kiln_workload_steps(p->workload, end - count, end);
+    p->plan->steps += count;
+    return true;
+}
+
+/* Draws a frame and measures that. */
+static bool draw(struct planning *p, uint32_t frame, struct sample *sample,
+                 struct kiln_error *error)
+{
+    struct kiln_drawn drawn;
+    const double before_s = kiln_clock_cpu_seconds();
+    if (!kiln_loop_draw(p->loop, frame, false, &drawn, error))
+        return false;
+    *sample = (struct sample){kiln_workload_frame(p->workload, frame),
+                              kiln_clock_cpu_seconds() - before_s};
+    kiln_picture_destroy(&drawn.picture);
+    return true;
+}
+
+/* Measures a frame. The first drawing fills caches that later frames use, so the next frame is
+ * drawn, too, and counts if it has about as much work. The same frame again would take less: shadow
+ * maps of what has not moved are kept. */
+static bool measure_frame(struct planning *p, uint32_t frame, struct sample *sample,
+                          struct kiln_error *error)
+{
+    struct sample next;
+    if ((p->states && !kiln_states_take_up(p->states, p->loop, frame, error)) ||
+        !advance(p, frame, error) || !draw(p, frame, sample, error))
+        return false;
+    if (frame + 1 >= p->scene->frames || sample->cpu_s > LONG_FRAME_S)
+        return true;
+    if (!advance(p, frame + 1, error) || !draw(p, frame + 1, &next, error))
+        return false;
+    if (next.work > 0.5 * sample->work && next.work < 2.0 * sample->work)
+        *sample = next;
+    return true;
+}
+
+/* Measures the frame that the caller chose, or the lightest and the heaviest one, and the steps to
+ * them. */
 static bool measure(struct planning *p, struct kiln_error *error)
 {
     struct kiln_plan *plan = p->plan;
-    struct kiln_drawn drawn;
-    if (p->states && !kiln_states_take_up(p->states, p->loop, plan->frame, error))
-        return false;
-    const double start_s = kiln_clock_cpu_seconds();
-    if (!kiln_loop_advance(p->loop, plan->frame, error))
-        return false;
-    double stepping_s = kiln_clock_cpu_seconds() - start_s;
-    plan->steps = kiln_loop_steps(p->loop);
-    for (int turn = 0; turn < 2; turn++) {
-        const double before_s = kiln_clock_cpu_seconds();
-        if (!kiln_loop_draw(p->loop, plan->frame, false, &drawn, error))
+    uint32_t frames[2] = {plan->frame, plan->frame};
+    if (p->params->frame < 0) {
+        frames[0] = kiln_workload_lightest(p->workload);
+        frames[1] = kiln_workload_heaviest(p->workload);
+        plan->frame = frames[1];
+    }
+    /* The loop only goes forward, and has drawn the frame after the earlier one. */
+    const uint32_t least = frames[0] < frames[1] ? frames[0] : frames[1];
+    const uint32_t most = frames[0] < frames[1] ? frames[1] : frames[0];
+    p->frame_count = most - least < 2 ? 1 : 2;
+    if (p->frame_count == 1) {
+        if (!measure_frame(p, plan->frame, &p->frames[0], error))
             return false;
-        plan->frame_cpu_s = kiln_clock_cpu_seconds() - before_s;
-        kiln_picture_destroy(&drawn.picture);
+    } else if (!measure_frame(p, least, &p->frames[least == plan->frame], error) ||
+               !measure_frame(p, most, &p->frames[most == plan->frame], error)) {
+        return false;
     }
     plan->memory_bytes = peak_memory();
-    if (plan->steps == 0) {
-        const double again_s = kiln_clock_cpu_seconds();
-        if (!kiln_loop_advance(p->loop, plan->frame + 1, error))
-            return false;
-        stepping_s = kiln_clock_cpu_seconds() - again_s;
-        plan->steps = kiln_loop_steps(p->loop);
-    }
-    plan->step_cpu_s = plan->steps > 0 ? stepping_s / (double)plan->steps : 0.0;
+    plan->frame_cpu_s = p->frames[p->frame_count - 1].cpu_s;
+    if (plan->steps == 0 && !advance(p, most + 1, error))
+        return false;
+    plan->step_cpu_s = plan->steps > 0 ? p->steps.cpu_s / (double)plan->steps : 0.0;
     return true;
+}
+
+/* ---- estimates ------------------------------------------------------------------------------- */
+
+/* Returns the time of a frame: between those that were measured, or in proportion to the only one.
+ */
+static double frame_seconds(const struct planning *p, uint32_t frame)
+{
+    const double work = kiln_workload_frame(p->workload, frame);
+    const struct sample *light = &p->frames[0], *heavy = &p->frames[p->frame_count - 1];
+    if (heavy->work <= light->work)
+        return heavy->cpu_s * work / heavy->work;
+    const double part = (work - light->work) / (heavy->work - light->work);
+    return light->cpu_s + part * (heavy->cpu_s - light->cpu_s);
+}
+
+static double steps_seconds(const struct planning *p, uint32_t from, uint32_t to)
+{
+    return p->steps.work > 0.0
+               ? p->steps.cpu_s / p->steps.work * kiln_workload_steps(p->workload, from, to)
+               : 0.0;
 }
 
 /* ---- tasks ----------------------------------------------------------------------------------- */
@@ -104,9 +186,11 @@ static struct kiln_plan_task task_of(const struct planning *p, uint32_t index)
         const uint32_t start = kiln_scene_frame_step(scene, task.frames.first);
         task.has_state = kiln_states_find(p->states, start, &task.state_step);
     }
-    task.steps = kiln_scene_last_step(scene, task.frames.last) - task.state_step;
-    task.cpu_s = plan->setup_cpu_s + plan->step_cpu_s * (double)task.steps +
-                 plan->frame_cpu_s * (task.frames.last - task.frames.first + 1.0);
+    const uint32_t last_step = kiln_scene_last_step(scene, task.frames.last);
+    task.steps = last_step - task.state_step;
+    task.cpu_s = plan->setup_cpu_s + steps_seconds(p, task.state_step, last_step);
+    for (uint32_t frame = task.frames.first; frame <= task.frames.last; frame++)
+        task.cpu_s += frame_seconds(p, frame);
     return task;
 }
 
@@ -131,15 +215,18 @@ bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
         return kiln_error_set(error, KILN_USAGE, "frame %lld: the scene has frames 0-%u",
                               (long long)params.frame, scene->frames - 1);
     }
-    plan.frame = params.frame < 0 ? scene->frames / 2 : (uint32_t)params.frame;
+    plan.frame = params.frame < 0 ? 0 : (uint32_t)params.frame;
     plan.part_frames = kiln_part_frames(scene->fps.num, scene->fps.den);
     plan.parts = (scene->frames - 1) / plan.part_frames + 1;
-    const bool ok = set_up(&planning, error) && measure(&planning, error);
+    planning.workload = kiln_workload_create(scene);
+    bool ok = planning.workload || kiln_error_no_memory(error, "the plan");
+    ok = ok && set_up(&planning, error) && measure(&planning, error);
     for (uint32_t i = 0; ok && params.task && i < params.tasks; i++) {
         const struct kiln_plan_task task = task_of(&planning, i);
         params.task(params.user, &plan, &task);
     }
     kiln_sized_give(out, &plan);
+    kiln_workload_destroy(&planning.workload);
     kiln_states_close(&planning.states);
     kiln_loop_destroy(&planning.loop);
     kiln_hold_release(device, scene);

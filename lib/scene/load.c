@@ -10,6 +10,7 @@
 
 #include "asset/loader/loader.h"
 #include "base/budget.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -159,6 +160,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
+    const double before_s = kiln_clock_cpu_seconds();
     char *name_copy = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
     if (!scratch || !scene || !name_copy) {
@@ -181,6 +183,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
              (!file || add_own_file(scene, file) || kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params, estimate);
         kiln_loader_stop_counting(scene->loader, params->budget);
+        scene->loading_cpu_s = kiln_clock_cpu_seconds() - before_s;
     }
     kiln_arena_destroy(&scratch);
     if (!ok && scene) {

@@ -473,6 +473,7 @@ struct kiln_scene {
 
     uint64_t samples;      /* follows: samples of grids (scene/samples.h) */
     uint64_t memory_bytes; /* that rendering on the device cpu is expected to take */
+    double loading_cpu_s;  /* time of processors that loading took, without that of helpers */
 
     float4 *keys; /* keys: x, y, slope, integral from 0 */
     uint32_t key_count;

@@ -10,7 +10,7 @@
 #include "base/pages.h"
 #include "draw/sprites/bins.h"
 #include "draw/sprites/fragments.h"
-#include "draw/sprites/stream.h"
+#include "draw/sprites/tile_target.h"
 #include "scene/work.h"
 
 enum {
@@ -173,155 +173,31 @@ static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln
 
 struct tile_job {
     struct kiln_raster_cpu *tiles;
-    /* pixels of the targets; NULL: there is no bloom, or no image for covering or for additive
-     * particles alone */
-    float *color, *bloom, *covering, *added;
-    const float *depth;
-    uint32_t width, height;
-    bool first; /* true: this is the first piece of the pass, before which pixels are empty */
-    bool keep_bloom, sum, by_fragment;
+    struct kiln_tile_target target;
     size_t first_tile; /* number of the first tile to draw */
-    enum kiln_tile_glow glow;
-    float weights[3]; /* for KILN_TILE_GLOW_APART: bloom weights of all glowing sprites */
 };
-
-/* Empties a row of a tile and loads the scene's depth into it; at: the row's first pixel. */
-static void begin_row(const struct tile_job *d, struct kiln_tile *tile, int y, size_t at)
-{
-    float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
-    memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
-    memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
-    if (d->added)
-        memset(tile->added[y], 0, KILN_TILE_ALPHA * sizeof *tile->added[y]);
-}
-
-/* Transposes four channels of four pixels into four pixels of four channels, or back. */
-static inline void transpose(four c[4])
-{
-    four low = __builtin_shufflevector(c[0], c[1], 0, 4, 1, 5);
-    four high = __builtin_shufflevector(c[0], c[1], 2, 6, 3, 7);
-    four low2 = __builtin_shufflevector(c[2], c[3], 0, 4, 1, 5);
-    four high2 = __builtin_shufflevector(c[2], c[3], 2, 6, 3, 7);
-    c[0] = __builtin_shufflevector(low, low2, 0, 1, 4, 5);
-    c[1] = __builtin_shufflevector(low, low2, 2, 3, 6, 7);
-    c[2] = __builtin_shufflevector(high, high2, 0, 1, 4, 5);
-    c[3] = __builtin_shufflevector(high, high2, 2, 3, 6, 7);
-}
-
-/* Writes up to four pixels to `to`; keep: blends them over the pixels there. passed: the part of
- * each pixel there that stays. */
-static inline void blend_pixels(const four drawn[4], const float passed[4], bool keep, float *to,
-                                size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        four_unaligned *pixel = (four_unaligned *)(to + 4 * i);
-        if (keep)
-            *pixel = drawn[i] + *pixel * passed[i];
-        else
-            stream_four(to + 4 * i, drawn[i]);
-    }
-}
-
-/* Blends a row of a tile over the result of earlier pieces, and its glow over the bloom of an
- * earlier pass, too, if that is kept. */
-static void store_row(const struct tile_job *d, const struct kiln_tile *tile, int y, size_t at)
-{
-    const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
-    for (size_t x = 0; x < (size_t)tile->width; x += 4) {
-        four color[4], glow[4], covering[4];
-        float passed[4];
-        for (int c = 0; c < 3; c++) {
-            memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
-            memcpy(&glow[c], &planes[KILN_TILE_GLOW_RED + c][x], sizeof glow[c]);
-            covering[c] = color[c];
-            if (d->glow == KILN_TILE_GLOW_APART) {
-                color[c] += glow[c];
-                glow[c] *= d->weights[c];
-            }
-        }
-        four alpha;
-        memcpy(&alpha, &planes[KILN_TILE_ALPHA][x], sizeof alpha);
-        const four left = 1.0f - (d->sum ? (four){0} : alpha);
-        memcpy(passed, &left, sizeof passed);
-        color[3] = glow[3] = covering[3] = alpha;
-        transpose(color);
-        transpose(glow);
-        size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
-        blend_pixels(color, passed, !d->first, d->color + 4 * (at + x), count);
-        if (d->bloom)
-            blend_pixels(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
-        if (d->covering) {
-            transpose(covering);
-            blend_pixels(covering, passed, !d->first, d->covering + 4 * (at + x), count);
-        }
-    }
-}
-
-/* Adds a row of the light of additive sprites alone to the result of earlier pieces. */
-static void store_added(const struct tile_job *d, const struct kiln_tile *tile, int y, size_t at)
-{
-    static const float all[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->added[y];
-    for (size_t x = 0; x < (size_t)tile->width; x += 4) {
-        four color[4] = {{0}};
-        for (int c = 0; c < 3; c++)
-            memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
-        transpose(color);
-        size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
-        blend_pixels(color, all, !d->first, d->added + 4 * (at + x), count);
-    }
-}
-
-/* Clears the pixels of a tile without sprites in the first piece; does nothing in later pieces. */
-static void clear_tile(const struct tile_job *d, size_t at, uint32_t width, uint32_t height)
-{
-    const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
-    for (uint32_t row = 0; row < height && row < KILN_TILE_HEIGHT && d->first; row++) {
-        size_t place = 4 * (at + (size_t)row * d->width);
-        memset(d->color + place, 0, bytes);
-        if (d->bloom && !d->keep_bloom)
-            memset(d->bloom + place, 0, bytes);
-        if (d->covering)
-            memset(d->covering + place, 0, bytes);
-        if (d->added)
-            memset(d->added + place, 0, bytes);
-    }
-}
 
 static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
 {
     const struct kiln_raster_cpu *tiles = d->tiles;
     const struct kiln_bins *bins = &tiles->bins;
     struct kiln_tile *tile = &tiles->tiles[worker];
-    uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
-    uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
-    uint32_t width = d->width - x, height = d->height - y;
-    size_t count = bins->first[number + 1] - bins->first[number];
+    const uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
+    const uint32_t y = (uint32_t)(number / bins->columns) * KILN_TILE_HEIGHT;
+    const size_t count = bins->first[number + 1] - bins->first[number];
     if (count == 0) {
-        clear_tile(d, (size_t)y * d->width + x, width, height);
+        kiln_tile_skip(&d->target, x, y);
         return;
     }
     const uint32_t *list = bins->list + bins->first[number];
-    tile->x = (int)x;
-    tile->y = (int)y;
-    tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
-    tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
-    tile->glow = d->glow;
+    kiln_tile_begin(&d->target, tile, x, y);
     tile->nearest = bins->depth[number].nearest;
-    tile->adds_apart = d->added != NULL;
-    tile->over = !d->sum && !d->by_fragment; /* lists of fragments need each sprite's alpha */
-    for (int row = 0; row < tile->height; row++)
-        begin_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
-    if (!d->by_fragment)
+    if (!d->target.by_fragment)
         tiles->draw(tile, tiles->sprites, tiles->cells, list, count);
     else
         kiln_fragments_draw(tiles->fragments[worker], tiles->draw, tile, tiles->sprites,
                             tiles->cells, list, count);
-    for (int row = 0; row < tile->height; row++)
-        store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
-    for (int row = 0; row < tile->height && d->added; row++)
-        store_added(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
-    stream_end();
+    kiln_tile_end(&d->target, tile);
 }
 
 static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
@@ -478,7 +354,7 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
         uint32_t end = count - begin < most ? count : begin + most;
         if (!kiln_bins_fill_some(&tiles->bins, begin, &end, tiles->threads, error))
             return false;
-        if (tile_job->by_fragment && end < count) /* pixels need all their sprites at once */
+        if (tile_job->target.by_fragment && end < count) /* pixels need all their sprites at once */
             return draw_sorted(
                 &(struct sorted_pass){
                     .tiles = tiles, .pass = pass, .entries = entries, .count = count},
@@ -487,7 +363,7 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
             return false;
         most = end - begin;
         begin = end;
-        tile_job->first = false;
+        tile_job->target.first = false;
     } while (begin < count);
     return true;
 }
@@ -550,7 +426,7 @@ bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint64_t sys
 }
 
 /* Makes the pixels that a pass reads and writes available on the host. */
-static bool open_images(const struct kiln_particles_draw *draw, struct tile_job *d,
+static bool open_images(const struct kiln_particles_draw *draw, struct kiln_tile_target *d,
                         struct kiln_error *error)
 {
     struct kiln_image *color = draw->framebuffer->images[0];
@@ -575,15 +451,16 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
 {
     const uint32_t most = draw->by_fragment ? SORTED_AT_A_TIME : SPRITES_AT_A_TIME;
     struct tile_job job = {.tiles = tiles,
-                           .first = true,
-                           .keep_bloom = draw->keep_bloom,
-                           .sum = draw->sum_alpha,
-                           .by_fragment = draw->by_fragment};
+                           .target = {.first = true,
+                                      .keep_bloom = draw->keep_bloom,
+                                      .sum = draw->sum_alpha,
+                                      .by_fragment = draw->by_fragment}};
+    struct kiln_tile_target *target = &job.target;
     const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, error);
-    if (!entries || !open_images(draw, &job, error) ||
+    if (!entries || !open_images(draw, target, error) ||
         !make_room(tiles, draw->count < most ? draw->count : most, error))
         return false;
-    job.glow = choose_glow(draw, job.weights);
+    target->glow = choose_glow(draw, target->weights);
     struct kiln_sprite_pass pass = {
         .scene = tiles->scene,
         .looks = draw->moment->looks,
@@ -596,7 +473,7 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
         .content = kiln_cells_content(tiles->cells),
         .fire_covers = draw->sum_alpha || draw->fire_covers,
     };
-    kiln_bins_measure(&tiles->bins, job.depth, job.width, job.height, tiles->threads);
+    kiln_bins_measure(&tiles->bins, target->depth, target->width, target->height, tiles->threads);
     if (draw->by_fragment && draw->count > most) {
         struct sorted_pass sorted = {
             .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};

@@ -104,7 +104,7 @@ $ printf '%s\n' 'kiln: 1' 'backdrop: {objects: [{mesh: {file: box.obj}}]}' 'syst
 > kiln check scenes/box.yaml | grep '^#'
 1|# mesh box.obj: OBJ, 12 triangles, 24 vertices, from 0 0 0 to 2 1 3
 1|#   closed, its thinnest part 1
-1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about 206 MiB
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about <n> MiB
 
 Open ones: a hole, and a triangle that faces the other way.
 
@@ -129,7 +129,7 @@ $ printf '%s\n' 'newmtl old oak' 'Kd 0.8 0.5 0.25' 'Pr 0.75' 'map_Kd oak.png' 'm
 1|#   colours of vertices, not drawn yet
 1|#   note: the mesh file names the file 'none.mtl': the materials cannot be opened: No such file or directory
 1|#   note: the mesh file names the file 'oak.png': the image cannot be opened: No such file or directory
-1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about 206 MiB
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about <n> MiB
 $ printf 'newmtl m\nmap_Kd a\033[2Jb.png\n' >scenes/escape.mtl
 > printf '%s\n' 'mtllib escape.mtl' 'usemtl m' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'f 1 2 3' >scenes/escape.obj
 > kiln check scenes/box.yaml --set backdrop.objects.0.mesh.file=escape.obj | grep '^#  '
@@ -147,4 +147,4 @@ $ kiln check scenes/box.yaml --set backdrop.objects.0.mesh='{file: waving.gltf, 
 1|#   1 morph target
 1|#   clip 0 'wave' of 1.5 s
 1|#   material 'skin', not drawn yet: base colour 1 0.5 0.25 times 'puff.png'; alpha 1, cut at 0.5; roughness 0.5; metalness 0; normals of 'puff.png' (by the second texture coordinates); two-sided
-1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about 206 MiB
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about <n> MiB

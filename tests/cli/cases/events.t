@@ -2,7 +2,7 @@ Events: one stream of lines of JSON tells other programs how a command goes.
 
 $ kiln render scenes/tiny.yaml -o e_%d.png --frames 0-1 --device cpu --threads 1 --events ndjson | sed -E 's/"(hash|state|sha256)": "[0-9a-f]+"/"\1": <hash>/g; s/"pass_ms": \{[^}]*\}/"pass_ms": {}/; s/"eta_s": [0-9.]+/"eta_s": <s>/'
 1|{"event": "started", "time": <time>, "kiln": "0.2.0", "command": "render", "arguments": ["scenes/tiny.yaml", "-o", "e_%d.png", "--frames", "0-1", "--device", "cpu", "--threads", "1", "--events", "ndjson"], "host": <host>}
-1|{"event": "loaded", "time": <time>, "scene": "scenes/tiny.yaml", "hash": <hash>, "size": [64, 36], "fps": "30/1", "frames": 24, "steps": 58, "particles": 82, "memory_bytes": 40801224}
+1|{"event": "loaded", "time": <time>, "scene": "scenes/tiny.yaml", "hash": <hash>, "size": [64, 36], "fps": "30/1", "frames": 24, "steps": 58, "particles": 82, "memory_bytes": <bytes>}
 1|{"event": "device", "time": <time>, "device": <device>}
 1|{"event": "frame", "time": <time>, "scene": "scenes/tiny.yaml", "frame": 0, "done": 1, "total": 2, "elapsed_s": <s>, "eta_s": <s>, "alive": 24, "state": <hash>, "pass_ms": {}, "file": "e_0.png", "bytes": <n>, "sha256": <hash>}
 1|{"event": "frame", "time": <time>, "scene": "scenes/tiny.yaml", "frame": 1, "done": 2, "total": 2, "elapsed_s": <s>, "eta_s": <s>, "alive": 28, "state": <hash>, "pass_ms": {}, "file": "e_1.png", "bytes": <n>, "sha256": <hash>}

@@ -102,7 +102,7 @@ $ kiln plan scenes/tiny.yaml --tasks 4 --fps 10 --set output.frames=50 --states 
 $ kiln plan scenes/tiny.yaml --tasks 2 --fps 10 --set output.frames=50 --json | jq -c '.parts, .part_frames, .measured.frame, (.tasks[] | del(.cpu_s))'
 1|3
 1|20
-1|25
+1|4
 1|{"task":1,"first_part":0,"parts":2,"frames":[0,39],"from_step":0,"from_state":false,"steps":246}
 1|{"task":2,"first_part":2,"parts":1,"frames":[40,49],"from_step":0,"from_state":false,"steps":306}
 $ kiln plan scenes/tiny.yaml --tasks 0

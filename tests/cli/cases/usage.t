@@ -377,10 +377,10 @@ $ kiln help check
 1|a scene file that renders to the same pictures. Comments at its end tell what
 1|its meshes are (their size, whether they are closed, their joints, clips and
 1|materials, and what is left out of them), and the work of the whole clip: steps,
-1|particles at once, and memory. The memory is that of rendering without OpenGL,
-1|within a factor of 1.5, encoders left out. After a wrong scene is reported, the
-1|other scenes are checked all the same. A scene that asks for more than --limits
-1|allow ends with exit code 8.
+1|particles at once, and memory. The memory is the most that rendering without
+1|OpenGL may take, encoders left out. After a wrong scene is reported, the other
+1|scenes are checked all the same. A scene that asks for more than --limits allow
+1|ends with exit code 8.
 1|
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands

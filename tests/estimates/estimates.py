@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Compares the memory that kiln expects of scenes with what they take: memory.py KILN TREE [OPTION...].
+"""Compares what kiln expects of scenes with what they take: estimates.py memory|time KILN TREE [OPTION...].
 
-It draws scenes over all options that allocate, changes those whose estimates were worst, and goes on with the
-worst of all, so that it finds scenes that a fair draw would miss. A scene's estimate is that of the event
-`loaded`; what it took is the peak of the process, by the kernel's count, with -o none. Fails when a scene takes
-more than 1.3 times its estimate.
+It draws scenes over all options that allocate or take time, changes those whose estimates were worst, and goes on
+with the worst of all, so that it finds scenes that a fair draw would miss.
+
+memory  The estimate is that of the event `loaded`; what a scene took is the peak of the process, by the kernel's
+        count, with -o none. Fails when a scene takes more than 1.3 times its estimate.
+time    The estimate is that of `kiln plan`; what a scene took is the time of all processors of `kiln render` with
+        -o none. Fails when the one is more than 3 times the other.
 """
 import argparse
 import json
@@ -12,11 +15,12 @@ import os
 import random
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
 
-MOST = 1.3  # times the estimate
+MOST = {"memory": 1.3, "time": 3.0}  # times the estimate
 
 SIZES = [[64, 36], [320, 180], [640, 360], [1280, 720], [1920, 1080], [2560, 1440]]
 MESHES = ["bowl", "cabin", "firs", "fist", "monk", "people", "pines", "plinth", "pot", "slab", "statue", "trees"]
@@ -129,6 +133,39 @@ def draw_backdrop(rng):
     return backdrop
 
 
+def draw_births(rng, system, most):
+    """Gives a system births that vary over a clip of two seconds."""
+    emit = system["emit"]
+    if "parent" in emit:
+        return
+    emit.pop("bursts", None)
+    particles = count(rng, most)
+    kind = rng.choice(["rate", "keys", "burst", "bursts"])
+    emit["life"] = rng.choice(["0.1 s", "0.5 s", ["0.2 s", "1.5 s"], "5 s"])
+    if kind == "rate":
+        emit["rate"] = particles
+    elif kind == "keys":
+        emit["rate"] = {"keys": {"0 s": 0, f"{rng.uniform(0.2, 1):.2f} s": particles, "1.2 s": 0}}
+    else:
+        times = [rng.uniform(-0.1, 1.8) for _ in range(1 if kind == "burst" else 4)]
+        emit["bursts"] = {round(t, 3): particles for t in sorted(times)}
+
+
+def draw_for_time(rng, most):
+    """Returns a scene of two seconds, whose work varies."""
+    scene = draw(rng, most)
+    scene["output"] = {"size": rng.choice(SIZES[:4]), "fps": 30, "frames": 60}
+    if rng.random() < 0.2:
+        scene["output"]["samples"] = 4
+    for name, system in scene["systems"].items():
+        draw_births(rng, system, most)
+        if "interact" in system:
+            system["emit"]["bursts"] = {0: min(most, 20000)}
+            system["emit"].pop("rate", None)
+            system["emit"]["life"] = "3 s"
+    return scene
+
+
 def draw(rng, most):
     scene = {"kiln": 1, "seed": rng.randrange(1000)}
     scene["output"] = {"size": rng.choice(SIZES), "fps": 30, "frames": rng.choice([1, 3])}
@@ -141,14 +178,12 @@ def draw(rng, most):
     return scene
 
 
-def change(rng, scene, most):
-    """Returns a scene with one part drawn anew."""
+def change(rng, scene, fresh, most):
+    """Returns a scene with one part of a fresh one."""
     other = json.loads(json.dumps(scene))
-    fresh = draw(rng, most)
     part = rng.choice(["output", "camera", "post", "backdrop", "system", "lights", "objects", "seed"])
     if part == "system":
-        name = rng.choice(list(other["systems"]))
-        other["systems"][name] = draw_system(rng, other, most, "s0" if name != "s0" else None)
+        other["systems"]["s0"] = fresh["systems"]["s0"]
     elif part in ("lights", "objects"):
         other["backdrop"][part] = fresh["backdrop"][part]
     else:
@@ -161,21 +196,25 @@ def text_of(scene):
     return re.sub(r'"(-?[0-9.]+)":', r"\1:", json.dumps(scene))
 
 
-def measure(kiln, folder, scene, seconds, memory):
-    """Returns (estimate, taken) in bytes, or None where kiln refuses the scene or it takes too long."""
-    path = os.path.join(folder, "scene.yaml")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text_of(scene))
-    events = os.path.join(folder, "events")
-    command = [kiln, "render", path, "-o", "none", "--device", "cpu", "--quiet", "--events", f"ndjson:{events}",
-               "--asset-root", folder, "--timeout", str(seconds)]
-    with open(os.path.join(folder, "stderr"), "wb") as errors:
-        process = subprocess.Popen(command, stderr=errors, preexec_fn=lambda: resource.setrlimit(
-            resource.RLIMIT_AS, (memory, memory)))
+def run(command, folder, seconds, memory):
+    """Returns (exit code, resources, message) of a command."""
+    errors_path = os.path.join(folder, "stderr")
+    with open(errors_path, "wb") as errors, open(os.path.join(folder, "stdout"), "wb") as out:
+        process = subprocess.Popen(
+            command + ["--timeout", str(seconds)], stdout=out, stderr=errors,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (memory, memory)))
         _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = status
-    with open(os.path.join(folder, "stderr"), encoding="utf-8", errors="replace") as errors:
-        message = errors.read()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    with open(errors_path, encoding="utf-8", errors="replace") as errors:
+        return process.returncode, usage, errors.read()
+
+
+def measure_memory(arguments, folder, path):
+    """Returns (estimate, taken) in bytes, or None where kiln refuses the scene; and what kiln said."""
+    events = os.path.join(folder, "events")
+    _, usage, message = run([arguments.kiln, "render", path, "-o", "none", "--device", "cpu", "--quiet",
+                             "--events", f"ndjson:{events}", "--asset-root", folder],
+                            folder, arguments.timeout, 20 << 30)
     estimate = 0
     if os.path.exists(events):
         with open(events, encoding="utf-8") as lines:
@@ -184,13 +223,59 @@ def measure(kiln, folder, scene, seconds, memory):
                 if event["event"] == "loaded":
                     estimate = event["memory_bytes"]
         os.remove(events)
-    if estimate == 0:
+    return (estimate, usage.ru_maxrss * 1024) if estimate else None, message
+
+
+def measure_time(arguments, folder, path):
+    """Returns (estimate, taken) in seconds of processors, or None; and what kiln said."""
+    code, _, message = run([arguments.kiln, "plan", path, "--device", "cpu", "--json", "--asset-root", folder],
+                           folder, arguments.timeout, 20 << 30)
+    if code != 0:
         return None, message
-    return (estimate, usage.ru_maxrss * 1024), message
+    with open(os.path.join(folder, "stdout"), encoding="utf-8") as plan:
+        estimate = json.load(plan)["cpu_s"]
+    code, usage, message = run([arguments.kiln, "render", path, "-o", "none", "--device", "cpu", "--quiet",
+                                "--asset-root", folder], folder, arguments.timeout, 20 << 30)
+    return (estimate, usage.ru_utime + usage.ru_stime) if code == 0 else None, message
+
+
+def badness(what, pair):
+    """Returns how wrong an estimate is: too little memory; too little or too much time."""
+    ratio = pair[1] / pair[0]
+    return ratio if what == "memory" else max(ratio, 1 / ratio)
+
+
+def search(arguments, folder):
+    """Returns the scenes that were measured, as (badness, ratio, scene), the worst first; and how many were
+    refused."""
+    rng = random.Random(arguments.seed)
+    fresh = draw if arguments.what == "memory" else draw_for_time
+    measure = measure_memory if arguments.what == "memory" else measure_time
+    path = os.path.join(folder, "scene.yaml")
+    worst, refused = [], 0
+    while len(worst) < arguments.scenes and refused < 20 * arguments.scenes + 100:
+        scene = fresh(rng, arguments.particles)
+        if worst and rng.random() < 0.6:
+            scene = change(rng, rng.choice(worst[:8])[2], scene, arguments.particles)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text_of(scene))
+        found, message = measure(arguments, folder, path)
+        if not found:
+            refused += 1
+            if arguments.verbose:
+                print(message.strip()[:200])
+            continue
+        worst.append((badness(arguments.what, found), found[1] / found[0], scene))
+        worst.sort(key=lambda item: -item[0])
+        unit = 1 << 20 if arguments.what == "memory" else 1
+        print(f"{len(worst):4} {found[0] / unit:8.1f} expected {found[1] / unit:8.1f} taken "
+              f"{found[1] / found[0]:6.2f}   worst {worst[0][1]:.2f}", flush=True)
+    return worst, refused
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=list(MOST))
     parser.add_argument("kiln")
     parser.add_argument("tree", help="the folder of the project, whose meshes the scenes have")
     parser.add_argument("--scenes", type=int, default=200)
@@ -198,44 +283,24 @@ def main():
     parser.add_argument("--particles", type=int, default=2000000, help="the most of a system")
     parser.add_argument("--timeout", type=int, default=60, help="seconds for a scene")
     parser.add_argument("--keep", help="a folder for the scenes that are worst")
+    parser.add_argument("--verbose", action="store_true", help="print why scenes are refused")
     arguments = parser.parse_args()
-    rng = random.Random(arguments.seed)
-    worst = []  # (ratio, scene), the worst first
-    measured = refused = 0
     with tempfile.TemporaryDirectory() as folder:
-        os.symlink(os.path.join(os.path.realpath(arguments.tree), "scenes", "meshes"), os.path.join(folder, "meshes"))
-        os.remove(os.path.join(folder, "meshes"))
-        subprocess.run(["cp", "-r", os.path.join(arguments.tree, "scenes", "meshes"), folder], check=True)
-        while measured < arguments.scenes and refused < 20 * arguments.scenes + 100:
-            if worst and rng.random() < 0.6:
-                scene = change(rng, rng.choice(worst[:8])[1], arguments.particles)
-            else:
-                scene = draw(rng, arguments.particles)
-            found, message = measure(arguments.kiln, folder, scene, arguments.timeout, 20 << 30)
-            if not found:
-                refused += 1
-                if os.environ.get("SHOW"):
-                    print(message.strip()[:200])
-                continue
-            measured += 1
-            ratio = found[1] / found[0]
-            worst.append((ratio, scene))
-            worst.sort(key=lambda pair: -pair[0])
-            print(f"{measured:4} {found[0] >> 20:6} MiB expected {found[1] >> 20:6} MiB taken {ratio:6.2f}"
-                  f"   worst {worst[0][0]:.2f}", flush=True)
+        shutil.copytree(os.path.join(arguments.tree, "scenes", "meshes"), os.path.join(folder, "meshes"))
+        worst, refused = search(arguments, folder)
     if arguments.keep:
         os.makedirs(arguments.keep, exist_ok=True)
-        for i, (ratio, scene) in enumerate(worst[:8]):
+        for i, (_, ratio, scene) in enumerate(worst[:8]):
             with open(os.path.join(arguments.keep, f"{i}_{ratio:.2f}.yaml"), "w", encoding="utf-8") as file:
                 file.write(text_of(scene))
-    ratios = sorted(pair[0] for pair in worst)
-    if measured < arguments.scenes:
-        print(f"memory.py: only {measured} of {arguments.scenes} scenes were measured", file=sys.stderr)
+    if len(worst) < arguments.scenes:
+        print(f"estimates.py: only {len(worst)} of {arguments.scenes} scenes were measured", file=sys.stderr)
         return 1
-    print(f"{measured} scenes, {refused} refused: taken / expected: least {ratios[0]:.2f}, "
+    ratios = sorted(item[1] for item in worst)
+    print(f"{len(ratios)} scenes, {refused} refused: taken / expected: least {ratios[0]:.2f}, "
           f"median {ratios[len(ratios) // 2]:.2f}, most {ratios[-1]:.2f}")
-    if ratios[-1] > MOST:
-        print(f"memory.py: a scene takes {ratios[-1]:.2f} times what was expected:\n{json.dumps(worst[0][1])}",
+    if worst[0][0] > MOST[arguments.what]:
+        print(f"estimates.py: a scene takes {worst[0][1]:.2f} times what was expected:\n{text_of(worst[0][2])}",
               file=sys.stderr)
         return 1
     return 0
