@@ -299,14 +299,24 @@ static void add_wall(struct kiln_mesh *mesh, const struct kiln_terrain *terrain,
     }
 }
 
+void kiln_terrain_mesh_count(const uint32_t samples[2], uint64_t *vertices, uint64_t *triangles)
+{
+    const uint64_t points = (uint64_t)samples[0] * samples[1];
+    const uint64_t cells = ((uint64_t)samples[0] - 1) * (samples[1] - 1);
+    const uint64_t edges = 2 * ((uint64_t)samples[0] + samples[1]);
+    *vertices = points + 2 * edges; /* the ground, and the walls below its edges */
+    *triangles = 2 * (cells + edges);
+}
+
 struct kiln_mesh *kiln_terrain_mesh(const struct kiln_terrain *terrain, struct kiln_error *error)
 {
     const uint32_t width = terrain->samples[0], depth = terrain->samples[1];
-    const size_t cells = (size_t)(width - 1) * (depth - 1), edges = 2 * ((size_t)width + depth);
+    uint64_t vertices, triangles;
+    kiln_terrain_mesh_count(terrain->samples, &vertices, &triangles);
     struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
     if (mesh) {
-        mesh->vertices = malloc((point_count(terrain) + 2 * edges) * sizeof *mesh->vertices);
-        mesh->triangles = malloc((2 * cells + 2 * edges) * sizeof *mesh->triangles);
+        mesh->vertices = malloc(vertices * sizeof *mesh->vertices);
+        mesh->triangles = malloc(triangles * sizeof *mesh->triangles);
     }
     if (!mesh || !mesh->vertices || !mesh->triangles) {
         kiln_error_no_memory(error, "the terrain");
@@ -319,15 +329,6 @@ struct kiln_mesh *kiln_terrain_mesh(const struct kiln_terrain *terrain, struct k
     add_wall(mesh, terrain, 0, 0, true, FLOAT3(0.0f, 0.0f, -1.0f));
     add_wall(mesh, terrain, 0, depth - 1, true, FLOAT3(0.0f, 0.0f, 1.0f));
     return mesh;
-}
-
-uint64_t kiln_terrain_mesh_bytes(const uint32_t samples[2])
-{
-    const struct kiln_mesh *m = NULL;
-    const uint64_t points = (uint64_t)samples[0] * samples[1];
-    const uint64_t edges = 2 * ((uint64_t)samples[0] + samples[1]);
-    return (points + 2 * edges) * sizeof *m->vertices +
-           2 * (points + edges) * (uint64_t)sizeof *m->triangles;
 }
 
 uint64_t kiln_terrain_bytes(const uint32_t samples[2])

@@ -51,8 +51,10 @@ void kiln_terrain_destroy(struct kiln_terrain **terrain);
  * `origin`. NULL with KILN_DEVICE_FAILED when memory is short. The caller destroys the mesh. */
 struct kiln_mesh *kiln_terrain_mesh(const struct kiln_terrain *terrain, struct kiln_error *error);
 
-/* Returns the bytes of the mesh of a terrain, and of the terrain itself, from its samples. */
-uint64_t kiln_terrain_mesh_bytes(const uint32_t samples[2]);
+/* Counts the vertices and triangles for which the mesh of a terrain has room. */
+void kiln_terrain_mesh_count(const uint32_t samples[2], uint64_t *vertices, uint64_t *triangles);
+
+/* Returns the bytes of a terrain. */
 uint64_t kiln_terrain_bytes(const uint32_t samples[2]);
 
 #endif

@@ -67,15 +67,15 @@ void kiln_meshes_count(const struct kiln_scene *scene, uint64_t *vertices, uint6
     *vertices = *triangles = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
+        uint64_t own_vertices = 0, own_triangles = 0;
         if (object->kind == KILN_OBJECT_TERRAIN) {
-            const uint64_t points = (uint64_t)object->samples[0] * object->samples[1];
-            const uint64_t edges = 2 * ((uint64_t)object->samples[0] + object->samples[1]);
-            *vertices += points + 2 * edges;
-            *triangles += 2 * (points + edges);
+            kiln_terrain_mesh_count(object->samples, &own_vertices, &own_triangles);
         } else if (object->kind == KILN_OBJECT_MESH) {
-            *vertices += object->shown->vertex_count;
-            *triangles += object->shown->triangle_count;
+            own_vertices = object->shown->vertex_count;
+            own_triangles = object->shown->triangle_count;
         }
+        *vertices += own_vertices;
+        *triangles += own_triangles;
     }
 }
 
@@ -84,8 +84,11 @@ void kiln_meshes_footprint(const struct kiln_scene *scene, struct kiln_footprint
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (object->kind == KILN_OBJECT_TERRAIN) {
-            kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1,
-                               kiln_terrain_mesh_bytes(object->samples));
+            const struct kiln_mesh *m = NULL;
+            uint64_t vertices, triangles;
+            kiln_terrain_mesh_count(object->samples, &vertices, &triangles);
+            kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, vertices, sizeof *m->vertices);
+            kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, triangles, sizeof *m->triangles);
             kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
                                 kiln_terrain_bytes(object->samples));
         } else if (object->kind == KILN_OBJECT_MESH && object->animation.enabled) {
