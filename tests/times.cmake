@@ -17,7 +17,7 @@ option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check 
 # test NAME with KILN_ALL_TESTS, when it checks all its cases and not only a sample (test_is_full,
 # tests/support/parts.h).
 set(kiln_test_times
-    "3 completion.bash completion.fish cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
+    "3 fuzz.draw completion.bash completion.fish cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
         docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
         faults.kill_flipbook faults.starved_mp4 fuzz.answers fuzz.part gpu.backdrop gpu.backdrop_turned
         gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
