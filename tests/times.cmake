@@ -17,15 +17,15 @@ option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check 
 # test NAME with KILN_ALL_TESTS, when it checks all its cases and not only a sample (test_is_full,
 # tests/support/parts.h).
 set(kiln_test_times
-    "3 completion.bash completion.fish cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
+    "3 fuzz.draw completion.bash completion.fish cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
         docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
         faults.kill_flipbook faults.starved_mp4 fuzz.answers fuzz.part gpu.backdrop gpu.backdrop_turned
         gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
         gpu.small_billboards gpu.solid_lamps gpu.sort_spread gpu.sort_trial gpu.spheres gpu.stages gpu.suite gpu.update
-        hostile_slow_helper mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.size unit.bounces
+        hostile_slow_helper mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.planted tree.size unit.bounces
         unit.depth_maps unit.fragments unit.image unit.output unit.parts unit.scene_place unit.sort unit.state unit.stopping
         unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"
-    "5 completion.zsh all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
+    "5 tree.conversions completion.zsh all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
         gpu.backdrop_shapes gpu.occlusion gpu.particles gpu.rasters hostile_smoke install mutation.shapes
         mutation.turned python.module queue.smoke unit.clips unit.field unit.sun_cover"
     "10 hostile_results all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.render cli.stop docs.scenes

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file_in.h"
 #include "job/pack.h"
+#include "job/state_check.h"
 
 #define MAGIC "kiln state "
 
@@ -387,7 +388,8 @@ static bool read_state(struct kiln_state *state, const struct visitor *visitor,
         head.info.history[0] = '\0';
     else if (!head.info.history[0])
         return refuse(visitor->path, "the state has no history of a stage", error);
-    return visit_tables(visitor, &head, &places, error);
+    return visit_tables(visitor, &head, &places, error) &&
+           kiln_state_check_pool(state->pool, head.info.step, visitor->path, error);
 }
 
 bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_threads *threads,

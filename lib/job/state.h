@@ -43,8 +43,8 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
 bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kiln_error *error);
 
 /* Reads a state into a pool that was initialised for the same scene, and the history into
- * state->history if its of_slots is not NULL. Fills state->info. After a failure the pool must not
- * be used. */
+ * state->history if its of_slots is not NULL. Fills state->info. Fails with KILN_INVALID_INPUT also
+ * for values that no step makes (job/state_check.h). After a failure the pool must not be used. */
 bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_threads *threads,
                      struct kiln_error *error);
 

@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "job/state.h"
+#include "job/state_check.h"
 #include "scene/motion.h"
 #include "scene/pool_layout.h"
 
@@ -204,6 +205,10 @@ static bool check(const struct kiln_states *states, uint32_t step, struct kiln_s
                               "%s: the state lacks the history that these techniques keep; bake "
                               "with the same --technique, camera and rates",
                               path);
+    if (states->history[0] && kiln_scene_frame_step(states->scene, info->frame) != step)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the state is of frame %u, which does not begin at step %u", path,
+                              info->frame, step);
     return true;
 }
 
@@ -249,7 +254,8 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
     struct kiln_state state = {.pool = &run->pool};
     bool ok = make_words(states, loop, &state.history, error) &&
               kiln_states_path(states, step, path, error) &&
-              kiln_state_read(&state, path, kiln_loop_threads(loop), error);
+              kiln_state_read(&state, path, kiln_loop_threads(loop), error) &&
+              kiln_state_check_births(&run->pool, states->scene, step, path, error);
     if (ok && state.history.of_slots)
         ok = history->kind->restore(history->technique, &run->pool, &state.history, error);
     free(state.history.of_slots);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "post/bloom_rows.h"
+#include "shared/exact.h"
 #include "shared/tent.h"
 
 enum { ROWS_AT_A_TIME = 4 };
@@ -34,7 +35,7 @@ static bool fill_columns(struct kiln_bloom_cpu *stage)
 {
     const struct kiln_bloom_level *level = &stage->plan.levels[0];
     const float reach = level->ratio + 0.5f;
-    const size_t most = 2 * (size_t)ceilf(reach) + 1;
+    const size_t most = 2 * (size_t)exact_uint(ceilf(reach)) + 1;
     const int64_t end = (int64_t)stage->source->width - 1;
     stage->columns = calloc(level->width, sizeof *stage->columns);
     stage->column_weights = calloc(level->width * most, sizeof *stage->column_weights);
@@ -42,8 +43,8 @@ static bool fill_columns(struct kiln_bloom_cpu *stage)
         return false;
     for (uint32_t x = 0; x < level->width; x++) {
         const float center = tent_center((float)x, level->ratio);
-        const int64_t first = (int64_t)floorf(center - reach) + 1;
-        const int64_t last = (int64_t)ceilf(center + reach) - 1;
+        const int64_t first = (int64_t)exact_int(floorf(center - reach)) + 1;
+        const int64_t last = (int64_t)exact_int(ceilf(center + reach)) - 1;
         const int64_t least = first < 0 ? 0 : first > end ? end : first;
         float *weights = stage->column_weights + x * most;
         for (int64_t from = first; from <= last; from++) {

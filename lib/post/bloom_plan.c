@@ -38,7 +38,7 @@ static uint32_t reduce(uint32_t count, float ratio)
 {
     const float margin = 0.001f; /* so that rounding adds no pixel */
     const float reduced = ceilf((float)count / ratio - margin);
-    return reduced > 1.0f ? (uint32_t)reduced : 1;
+    return reduced > 1.0f ? exact_uint(reduced) : 1;
 }
 
 /* Appends a level that is reduced by a ratio. */
@@ -71,7 +71,7 @@ static void plan_gaussian(struct kiln_bloom_plan *plan, uint32_t width, uint32_t
     const float blur = exact_sqrt(exact_max(wanted, 0.01f));
     add_level(plan, width, height, ratio);
     plan->scale = 1.0f / ratio;
-    set_gaussian(plan, blur, (uint32_t)ceilf(reach * blur) + 1);
+    set_gaussian(plan, blur, exact_uint(ceilf(reach * blur)) + 1);
 }
 
 static void plan_pyramid(struct kiln_bloom_plan *plan, uint32_t width, uint32_t height)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "post/bloom_rows.h"
+#include "shared/exact.h"
 #include "shared/tent.h"
 
 static const float HALF_MAX = 65504.0f; /* the greatest 16-bit float; greater values are clamped to
@@ -42,7 +43,7 @@ static inline void repeat_edges(kiln_quad *row, size_t width)
 
 static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y)
 {
-    const size_t factor = (size_t)p->ratio, last = p->from.width - 1;
+    const size_t factor = (size_t)exact_uint(p->ratio), last = p->from.width - 1;
     const float pixel_count = (float)(factor * factor);
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
@@ -75,8 +76,8 @@ static inline void add_rows(float *sums, const float *rows[2], const float weigh
 static inline void reduce_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
 {
     const float center = tent_center((float)y, p->ratio), reach = p->ratio + 0.5f;
-    const int64_t first = (int64_t)floorf(center - reach) + 1;
-    const int64_t last = (int64_t)ceilf(center + reach) - 1;
+    const int64_t first = (int64_t)exact_int(floorf(center - reach)) + 1;
+    const int64_t last = (int64_t)exact_int(ceilf(center + reach)) - 1;
     const size_t count = 4 * (size_t)p->from.width;
     float *sums = (float *)worker_row(p, worker);
     memset(sums, 0, count * sizeof *sums);

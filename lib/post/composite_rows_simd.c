@@ -8,6 +8,7 @@
 #include "base/transpose.h"
 #include "post/composite_rows.h"
 #include "post/magnify_row.h"
+#include "shared/exact.h"
 #include "shared/tonemap.h"
 
 enum {
@@ -170,7 +171,7 @@ SIMD void show(const struct kiln_composite_rows *p, struct block *block, const s
         vi steps[3] = {noise & 0x3ff, noise >> 10 & 0x3ff, noise >> 20}, alpha;
         for (int c = 0; c < 3; c++)
             steps[c] += vi_of(block->channel[c][i] * scale + TONEMAP_NOISE_BIAS);
-        alpha = opaque ? vi_all((int32_t)levels) : vi_of(block->channel[3][i] * levels + 0.5f);
+        alpha = opaque ? vi_all(exact_int(levels)) : vi_of(block->channel[3][i] * levels + 0.5f);
         store_display(p, steps, alpha, place->at + (size_t)(i * LANES));
     }
 }

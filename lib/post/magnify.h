@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "post/compose.h"
+#include "shared/exact.h"
 
 enum { KILN_MAGNIFY_EDGE = 2 }; /* texels that the filter reads beyond the picture, on each side */
 
@@ -40,7 +41,7 @@ static inline int32_t kiln_magnify_taps(uint32_t pixel, float scale, float weigh
     weights[1] = (4.0f - 6.0f * t * t + 3.0f * t * t * t) * (1.0f / 6.0f);
     weights[2] = (4.0f - 6.0f * s * s + 3.0f * s * s * s) * (1.0f / 6.0f);
     weights[3] = t * t * t * (1.0f / 6.0f);
-    return (int32_t)base - 1;
+    return exact_int(base) - 1;
 }
 
 #endif

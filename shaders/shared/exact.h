@@ -57,6 +57,25 @@ FN float exact_clamp(float x, float low, float high)
     return y;
 }
 
+/* Returns x without its fraction, and the least integer for NaN and for numbers beyond 2^31, as x86
+ * and vi_of (lib/base/lanes.h) do. The conversions of C and GLSL are undefined there. lib/draw and
+ * lib/post convert floats by this function and exact_uint alone, also where a value was just
+ * clamped, so that no reader needs to prove its range (tests/tree/conversions.sh). */
+FN int exact_int(float x)
+{
+    bool within = (FLOAT_BITS(x) & EXACT_SIZE_BITS) < 0x4f000000u; /* 2^31 */
+    return within ? INT(x) : -2147483647 - 1;
+}
+
+/* Returns x without its fraction, and 0 for NaN and for numbers that an unsigned integer does not
+ * have: 0 is a place within every array. */
+FN uint exact_uint(float x)
+{
+    uint bits = FLOAT_BITS(x);
+    bool within = bits < 0x4f800000u || (bits & EXACT_SIZE_BITS) < 0x3f800000u; /* 2^32; 1 */
+    return within ? UINT(x) : 0u;
+}
+
 /* Interpolates from a at t = 0 to b at t = 1; the result is within a and b for t from 0 to 1. */
 FN float exact_lerp(float a, float b, float t)
 {

@@ -18,7 +18,7 @@ for name in "${names[@]}"; do
 done
 files=(decode/{png,picture,video,exr,avframe} lib/asset/image/{image,received,video_in}
     lib/asset/loader/{helper,loader} lib/asset/geometry/{mesh_in,mesh_arrays,skin,grid_in} lib/option/{node,reader}
-    lib/suite/{test_file,expect,result_read} lib/figure/record lib/job/{journal_read,journal_head,state,pack}
+    lib/suite/{test_file,expect,result_read} lib/figure/record lib/job/{journal_read,journal_head,state,state_check,pack}
     lib/output/part_file)
 printf '%-36s %8s %8s\n' file lines reached
 for file in "${files[@]}"; do

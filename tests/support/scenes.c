@@ -35,6 +35,22 @@ struct kiln_scene *load_scene_file(const char *path)
     return scene;
 }
 
+struct kiln_scene *load_fixture(const char *name, const char *override)
+{
+    char path[256];
+    const char *const overrides[] = {override};
+    const struct kiln_scene_params params = {.size = sizeof params,
+                                             .asset_root = KILN_SOURCE_DIR,
+                                             .overrides = overrides,
+                                             .override_count = override != NULL};
+    struct kiln_error error = {0};
+    snprintf(path, sizeof path, KILN_SOURCE_DIR "/tests/motion/%s.yaml", name);
+    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
 char *print_scene(const struct kiln_scene *scene)
 {
     char *text = NULL;

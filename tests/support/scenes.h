@@ -16,6 +16,10 @@ struct kiln_scene *try_scene(const char *text, const char *const *overrides,
 struct kiln_scene *load_scene(const char *text, const char *const *overrides);
 struct kiln_scene *load_scene_file(const char *path);
 
+/* Returns the scene of a file of tests/motion, such as "rest", which the caller destroys. override:
+ * a "KEY=VALUE", or NULL for none. An error fails the test. */
+struct kiln_scene *load_fixture(const char *name, const char *override);
+
 /* Returns the text that kiln_scene_print writes. The caller frees it. */
 char *print_scene(const struct kiln_scene *scene);
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks that the scripts for the rules of the source tree (includes.sh, symbols.sh, uniforms.sh,
-# texts.sh, rows.sh) find faults, and that option tables with faulty rows do not compile: planted.sh
+# texts.sh, rows.sh, conversions.sh) find faults, and that option tables with faulty rows do not compile: planted.sh
 # CC. If this fails, a source tree that breaks the rules passes the tests. The script breaks each
 # rule once in a small tree, and the rule's script or the compiler must report it.
 set -euo pipefail
@@ -192,6 +192,34 @@ plant && echo '    "%" PRIu64 "/%" PRIu64 PRIu64, a, b);' >lib/sort/keys.h
 refused "two PRI macros" 'lib/sort/keys.h:1: two PRI macros in sequence' texts
 plant && printf '    "%%" PRIu64\n\n    PRIx32, a);\n' >tests/unit/test_thing.c
 refused "two PRI macros on two lines" 'tests/unit/test_thing.c:3: two PRI macros in sequence' texts
+
+# conversions.sh gets a build that compiles one file of lib/draw, and the source tree's own headers.
+convert() {
+    printf '#include "shared/exact.h"\n%s\n' "$1" >lib/draw/light/lamp.c
+    printf '[{"directory": "%s", "file": "%s/lib/draw/light/lamp.c", "command": "%s"}]\n' "$tree" "$tree" \
+        "$compiler -Wall -I$tree/lib -I$tree/shaders -O2 -o lamp.o -c $tree/lib/draw/light/lamp.c" >compile_commands.json
+}
+conversions() { "$scripts/conversions.sh" "$tree" "$tree"; }
+
+plant && cp "$source"/shaders/shared/{exact,elementary,platform}.h shaders/shared/
+cast='lib/draw/light/lamp.c:2: a float is cast to an integer'
+convert 'int f(float x) { return exact_int(x) + (int)exact_uint(x); }'
+conversions >/dev/null
+convert 'int f(float x) { return exact_int(x) + (int)x; }'
+refused "a cast" "$cast" conversions
+convert 'unsigned char f(double x) { return (unsigned char)(x + exact_int(1.0f)); }'
+refused "a cast of a double" "$cast" conversions
+convert 'int f(float x); int f(float x) { return exact_int(x) > 0 ? x : 0; }'
+refused "a conversion without a cast" "$cast" conversions
+convert '#define WHOLE(x) ((int)(x))
+int f(float x) { return exact_int(x) + WHOLE(x); }'
+refused "a cast in a macro" 'lib/draw/light/lamp.c:3: a float is cast' conversions
+printf 'static inline int whole(float x) { return (int)x; }\n' >lib/draw/moment/view.h
+convert '#include "draw/moment/view.h"
+int f(float x) { return exact_int(x) + whole(x); }'
+refused "a cast in a header" 'lib/draw/moment/view.h:1: a float is cast' conversions
+convert 'this is not C'
+refused "a file that does not compile" "unknown type name 'this'" conversions
 
 # symbols.sh gets objects in which lib/base calls a function that lib/sort, a room (folder of lib/)
 # above it, defines. includes.sh would miss this if kiln.h, which every room may include, declared

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/lanes.h"
 #include "shared/exact.h"
 #include "shared/random.h"
 #include "support/cmocka.h"
@@ -184,9 +185,38 @@ static void vectors_follow_their_definitions(void **state)
     assert_true(none.x == 0.0f && none.y == 1.0f && none.z == 0.0f);
 }
 
+/* Every float has an integer, the same for single numbers and for vectors. */
+static void integers_of_all_floats(void **state)
+{
+    (void)state;
+    const float below = nextafterf(0x1p31f, 0.0f);
+    assert_int_equal(exact_int(below), 2147483520);
+    assert_int_equal(exact_int(-below), -2147483520);
+    assert_int_equal(exact_int(-1.999f), -1);
+    assert_int_equal(exact_int(-0.0f), 0);
+    const float beyond[] = {0x1p31f, -0x1p31f, 1e30f, -1e30f, INFINITY, -INFINITY, NAN, -NAN};
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++)
+        assert_int_equal(exact_int(beyond[i]), INT32_MIN);
+
+    assert_int_equal(exact_uint(nextafterf(0x1p32f, 0.0f)), 4294967040u);
+    assert_int_equal(exact_uint(2.999f), 2);
+    assert_int_equal(exact_uint(-0.999f), 0);
+    const float none[] = {0x1p32f, -1.0f, 1e30f, -1e30f, INFINITY, -INFINITY, NAN, -NAN};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_int_equal(exact_uint(none[i]), 0);
+
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        const float x = BITS_FLOAT(random_mix(i));
+        const vi vector = vi_of(vf_all(x));
+        if (vector[0] != exact_int(x))
+            fail_msg("%g: %d and %d", (double)x, vector[0], exact_int(x));
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(integers_of_all_floats),
         cmocka_unit_test(reciprocals_and_roots_are_near_the_closed_form),
         cmocka_unit_test(sine_and_cosine_are_near_the_closed_form),
         cmocka_unit_test(exponentials_are_near_the_closed_form),

@@ -15,22 +15,6 @@
 #define FILE_NAME "a.kilnstate"
 #define MOTION    "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"
 
-static struct kiln_scene *load(const char *fixture, const char *override)
-{
-    char path[256];
-    const char *const overrides[] = {override};
-    const struct kiln_scene_params params = {.size = sizeof params,
-                                             .asset_root = KILN_SOURCE_DIR,
-                                             .overrides = overrides,
-                                             .override_count = override != NULL};
-    struct kiln_error error = {0};
-    snprintf(path, sizeof path, KILN_SOURCE_DIR "/tests/motion/%s.yaml", fixture);
-    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    return scene;
-}
-
 static void save(struct simulation *run, uint32_t *words)
 {
     struct kiln_state state = {.pool = &run->pool, .history = {words, 3}};
@@ -57,7 +41,7 @@ static void take_up(struct simulation *run, struct kiln_state *state)
 /* Saves after so many steps, goes on in another run, and compares with one that never stopped. */
 static void check_scene(const char *fixture, const char *override, uint32_t steps)
 {
-    struct kiln_scene *scene = load(fixture, override);
+    struct kiln_scene *scene = load_fixture(fixture, override);
     struct simulation whole, first, second;
     simulation_start_with(&whole, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_start_with(&first, scene, NULL, KILN_SIMULATE_CPU, 2);
@@ -100,7 +84,7 @@ static void runs_go_on(void **state)
 static void states_replace_what_is_there(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load("surfaces", NULL);
+    struct kiln_scene *scene = load_fixture("surfaces", NULL);
     struct simulation first, second;
     simulation_start_with(&first, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_start_with(&second, scene, NULL, KILN_SIMULATE_CPU, 2);
@@ -125,7 +109,7 @@ static void states_replace_what_is_there(void **state)
 static void histories_are_kept(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load("rest", NULL);
+    struct kiln_scene *scene = load_fixture("rest", NULL);
     struct simulation run;
     simulation_start_with(&run, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_run(&run, 30);
@@ -200,7 +184,7 @@ static void check_refused(const char *bytes, size_t size, const char *what, size
 static void damage_is_seen(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load("rest", "systems.drops.emit.rate=20");
+    struct kiln_scene *scene = load_fixture("rest", "systems.drops.emit.rate=20");
     struct simulation run;
     simulation_start_with(&run, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_run(&run, 30);
@@ -265,7 +249,7 @@ static void other_files_are_refused(void **state)
 static void other_systems_are_refused(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load("rest", NULL), *other = load("surfaces", NULL);
+    struct kiln_scene *scene = load_fixture("rest", NULL), *other = load_fixture("surfaces", NULL);
     struct simulation run, stranger;
     simulation_start_with(&run, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_start_with(&stranger, other, NULL, KILN_SIMULATE_CPU, 2);

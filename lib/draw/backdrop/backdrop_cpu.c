@@ -139,7 +139,7 @@ static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
 
 static int32_t pixel_within(float x, float size)
 {
-    return (int32_t)exact_clamp(x, 0.0f, size);
+    return exact_int(exact_clamp(x, 0.0f, size));
 }
 
 /* Returns the pixels that a shape may cover, with a margin of a few pixels. number: among the
@@ -170,8 +170,8 @@ static struct kiln_pixel_box cover_bounds(const struct kiln_view *view,
         high[1] = exact_max(high[1], y);
     }
     if (in_front < 8) /* part of the box is behind the eye: all pixels; the whole box: none */
-        return (struct kiln_pixel_box){0, in_front ? (int32_t)width : 0, 0,
-                                       in_front ? (int32_t)height : 0};
+        return (struct kiln_pixel_box){0, in_front ? exact_int(width) : 0, 0,
+                                       in_front ? exact_int(height) : 0};
     return (struct kiln_pixel_box){
         pixel_within(low[0] - margin, width), pixel_within(high[0] + margin, width),
         pixel_within(low[1] - margin, height), pixel_within(high[1] + margin, height)};

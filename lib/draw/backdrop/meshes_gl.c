@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "gpu/program.h"
+#include "shared/exact.h"
 
 enum { HIT_LAYERS = 1 + KILN_EDGE_SAMPLES };
 
@@ -303,7 +304,7 @@ static void upload_paint(struct kiln_meshes_gl *m, const struct kiln_draw_shapes
         const struct kiln_pyramid *p = kiln_painted_picture(m->painted, i);
         if (!p || kiln_painted_changes(m->painted, i) == m->paint_changes[i])
             continue;
-        const float paint = shapes->meshes[i].color.w;
+        const int32_t paint = exact_int(shapes->meshes[i].color.w);
         const GLint layer = KILN_PAINT_LAYER(paint), first = KILN_PAINT_LEVEL(paint);
         for (uint32_t level = 0; level < p->levels; level++)
             glTexSubImage3D(GL_TEXTURE_2D_ARRAY, first + (GLint)level, 0, 0, layer,

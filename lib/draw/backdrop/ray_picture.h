@@ -6,6 +6,7 @@
 
 #include "base/real.h"
 #include "draw/backdrop/ray.h"
+#include "shared/exact.h"
 #include "shared/picture_map.h"
 
 typedef float ray_texel __attribute__((vector_size(16)));
@@ -27,15 +28,17 @@ static inline float fraction(float x)
 }
 
 /* Interpolates linearly between four texels of a level. u, v: 0 to 1. The picture repeats beyond
- * its left and right edges; beyond the upper and lower ones it repeats too, or is clamped. */
+ * its left and right edges; beyond the upper and lower ones it repeats too, or is clamped. A
+ * coordinate that is NaN reads an edge, so that no place outside of the memory is read. */
 static inline ray_texel read_level(const struct kiln_pyramid *p, uint32_t level, float u, float v,
                                    bool repeats_y)
 {
     int32_t width = (int32_t)p->widths[level], height = (int32_t)p->heights[level];
-    float x = u * (float)width - 0.5f, y = v * (float)height - 0.5f;
+    float x = exact_max(u * (float)width - 0.5f, -1.0f);
+    float y = exact_max(v * (float)height - 0.5f, -1.0f);
     float left = floorf(x), top = floorf(y), right = x - left, down = y - top;
-    int32_t x0 = (int32_t)left, x1 = x0 + 1 < width ? x0 + 1 : 0;
-    int32_t y0 = (int32_t)top, y1 = y0 + 1;
+    int32_t x0 = exact_int(left), x1 = x0 + 1 < width ? x0 + 1 : 0;
+    int32_t y0 = exact_int(top), y1 = y0 + 1;
     x0 = x0 < 0 ? width - 1 : x0;
     if (y1 >= height)
         y1 = repeats_y ? 0 : height - 1;
@@ -62,7 +65,7 @@ static inline struct ray_levels choose_levels(const struct kiln_pyramid *p, floa
     float most = (float)(p->levels - 1);
     level = level > 0.0f ? level : 0.0f;
     level = level < most ? level : most;
-    uint32_t fine = (uint32_t)level;
+    uint32_t fine = exact_uint(level);
     return (struct ray_levels){fine, fine + 1 < p->levels ? fine + 1 : fine, level - (float)fine};
 }
 
@@ -110,7 +113,8 @@ SIMD struct vf3 gather_level(const struct kiln_pyramid *p, const struct ray_leve
                              vf v, bool repeats_y)
 {
     const vi width = level->width, height = level->height, zero = vi_all(0);
-    const vf x = u * vf_of(width) - 0.5f, y = v * vf_of(height) - 0.5f;
+    const vf x = vf_max(u * vf_of(width) - 0.5f, vf_all(-1.0f));
+    const vf y = vf_max(v * vf_of(height) - 0.5f, vf_all(-1.0f));
     const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
     vi x0 = vi_of(left), y0 = vi_of(top), x1 = x0 + 1, y1 = y0 + 1;
     x1 &= x1 < width;

@@ -11,7 +11,7 @@ static int32_t bit_from(float x, int32_t bits)
     const float at = x - 0.5f;
     if (!(at > 0.0f))
         return 0;
-    const int32_t whole = at < (float)bits ? (int32_t)at : bits;
+    const int32_t whole = at < (float)bits ? exact_int(at) : bits;
     return whole + ((float)whole < at && whole < bits ? 1 : 0);
 }
 

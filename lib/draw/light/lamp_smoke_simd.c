@@ -5,6 +5,7 @@
 
 #include "draw/light/lamp_smoke.h"
 #include "draw/light/ray_smoke.h"
+#include "shared/exact.h"
 
 static_assert(KILN_LAMP_SMOKE_FACE % LANES == 0, "rows of a face are whole vectors");
 
@@ -54,11 +55,17 @@ static vf extinction_at(const struct kiln_lamp_smoke_job *job, struct vf3 direct
                                       vf_where(inside, at.z)));
 }
 
+/* The ways through the grid take at most 37 steps, from corner to corner. A way of more than these
+ * lies between a lamp and the grid, where there is no smoke. */
+enum { MOST_STEPS = 256 };
+
 /* Returns the optical depth between two distances from the lamp. */
 static vf depth_between(const struct kiln_lamp_smoke_job *job, struct vf3 direction, float from,
                         float to)
 {
-    const int steps = 1 + (int)((to - from) / job->step);
+    if (to - from > (float)MOST_STEPS * job->step)
+        return vf_all(0.0f);
+    const int steps = 1 + exact_int((to - from) / job->step);
     const float step = (to - from) / (float)steps;
     vf sum = vf_all(0.0f);
     for (int i = 0; i < steps; i++)

@@ -106,8 +106,8 @@ __attribute__((flatten)) static void gather_fire(const struct kiln_appearance_bl
 {
     struct fire fire;
     find_fire(&fire, b, glow, fill, light_count);
-    for (uint32_t k = (uint32_t)fire.place_min; k < light_count && (float)k < fire.place_max + 1.0f;
-         k++)
+    for (uint32_t k = exact_uint(fire.place_min);
+         k < light_count && (float)k < fire.place_max + 1.0f; k++)
         add_light(&fire, b, (float)k, &lights[k]);
 }
 

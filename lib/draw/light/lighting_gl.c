@@ -8,6 +8,8 @@
 
 #include <stdlib.h>
 
+#include "shared/exact.h"
+
 enum texture {
     SMOKE_SUN,
     SMOKE_SKY,
@@ -156,7 +158,7 @@ static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_soli
         last = tile.y + tile.w > last ? tile.y + tile.w : last;
     }
     for (GLint level = 0; level < KILN_INSTANCE_LEVELS; level++) {
-        const GLsizei edge = KILN_INSTANCE_ATLAS >> level, rows = (GLsizei)last >> level;
+        const GLsizei edge = KILN_INSTANCE_ATLAS >> level, rows = exact_int(last) >> level;
         if (rows > 0)
             glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, edge, rows, GL_RED, GL_FLOAT, texels);
         texels += (size_t)edge * (size_t)edge;

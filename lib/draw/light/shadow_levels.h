@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "base/thread.h"
+#include "shared/exact.h"
 
 /* A texel: the lower 16 bits are the part of it that meshes cover, the upper 16 bits that part
  * times their mean distance, both in units of 1 / KILN_SHADOW_ONE. The distance is 0 nearest to the
@@ -41,7 +42,7 @@ static inline size_t kiln_shadow_level_start(size_t edge, uint32_t level)
 /* Returns the texel of a place that a mesh covers at a distance, 0 to 1. */
 static inline uint32_t kiln_shadow_texel(float distance)
 {
-    return (uint32_t)(distance * (float)KILN_SHADOW_ONE + 0.5f) << 16 | KILN_SHADOW_ONE;
+    return exact_uint(distance * (float)KILN_SHADOW_ONE + 0.5f) << 16 | KILN_SHADOW_ONE;
 }
 
 /* Stores a texel of `words` words into its own entry and into that of the texel above. Threads may

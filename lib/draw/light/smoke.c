@@ -92,7 +92,7 @@ bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *momen
     smoke->chunk_count = 0;
     for (uint32_t i = 0; i < systems; i++) {
         float shadow = shadow_of(moment, i);
-        if (!(shadow > 0.0f))
+        if (!(shadow > 0.0f) || chunks_of(moment->pool, i) == 0)
             continue;
         struct gather_job job = {
             .find = KILN_SIMD_PICK(kiln_appearance_find, moment->simd),

@@ -224,9 +224,8 @@ static inline void find_reaches(int count, struct balls *balls)
         for (int i = 0; i < count; i++) {
             int edge = EDGE >> balls->level[i];
             float at = balls->at[axis][i], radius = balls->radius[i];
-            int first = (int)floorf(at - radius), last = (int)ceilf(at + radius) - 1;
-            first = first < 0 ? 0 : first;
-            last = last > edge - 1 ? edge - 1 : last;
+            int first = exact_int(exact_clamp(floorf(at - radius), 0.0f, (float)edge));
+            int last = exact_int(exact_clamp(ceilf(at + radius), 0.0f, (float)edge)) - 1;
             int reached = last - first + 1;
             balls->count[axis][i] = reached > LANES ? LANES : reached;
             balls->first[axis][i] = axis == 0 && first > edge - LANES ? edge - LANES : first;

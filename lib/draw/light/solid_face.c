@@ -144,7 +144,7 @@ static void add_speck(struct kiln_solid_canvas *canvas, const struct kiln_seen_s
     const float left = floorf(x), top = floorf(y);
     const struct kept kept = kept_of(canvas, solid);
     for (int i = 0; i < 4; i++) {
-        const int32_t column = (int32_t)left + (i & 1), row = (int32_t)top + (i >> 1);
+        const int32_t column = exact_int(left) + (i & 1), row = exact_int(top) + (i >> 1);
         const float part =
             (i & 1 ? x - left : 1.0f - (x - left)) * (i >> 1 ? y - top : 1.0f - (y - top));
         if (column < 0 || row < 0 || column >= EDGE || row >= EDGE)
@@ -200,7 +200,7 @@ static void add_row(struct kiln_solid_canvas *canvas, const struct kiln_seen_sol
     if (!(end > first))
         return;
     touch(canvas, row, row + 1);
-    for (int32_t x = (int32_t)first; x < EDGE && (float)x < end; x++) {
+    for (int32_t x = exact_int(first); x < EDGE && (float)x < end; x++) {
         float part = 0.0f;
         for (int k = 0; k < ROWS; k++) {
             const float left = exact_max(cuts[k].from, (float)x);
@@ -229,7 +229,7 @@ void kiln_solid_canvas_ball(struct kiln_solid_canvas *canvas, const struct kiln_
         low = exact_clamp(texels_of(-(c.y * c.z + root) * inverse), 0.0f, (float)EDGE);
         high = exact_clamp(texels_of(-(c.y * c.z - root) * inverse), 0.0f, (float)EDGE);
     }
-    for (int32_t row = (int32_t)low; row < EDGE && (float)row < high; row++)
+    for (int32_t row = exact_int(low); row < EDGE && (float)row < high; row++)
         add_row(canvas, solid, kept, row);
 }
 
@@ -274,8 +274,8 @@ static struct bounds set_bits(struct kiln_solid_canvas *canvas, const struct kil
 static void find_texels(const struct bounds *bounds, int axis, int32_t *first, int32_t *end)
 {
     const float cell = 1.0f / (float)KILN_BIT_CELL;
-    *first = (int32_t)exact_clamp(bounds->low[axis] * cell, 0.0f, (float)EDGE);
-    *end = (int32_t)exact_clamp(bounds->high[axis] * cell + 1.0f, 0.0f, (float)EDGE);
+    *first = exact_int(exact_clamp(bounds->low[axis] * cell, 0.0f, (float)EDGE));
+    *end = exact_int(exact_clamp(bounds->high[axis] * cell + 1.0f, 0.0f, (float)EDGE));
 }
 
 void kiln_solid_canvas_mesh(struct kiln_solid_canvas *canvas, const struct kiln_seen_solid *solid,
@@ -311,7 +311,7 @@ void kiln_solid_canvas_mesh(struct kiln_solid_canvas *canvas, const struct kiln_
 
 static uint32_t units_of(float part)
 {
-    return (uint32_t)(exact_clamp(part, 0.0f, 1.0f) * (float)KILN_SHADOW_ONE + 0.5f);
+    return exact_uint(exact_clamp(part, 0.0f, 1.0f) * (float)KILN_SHADOW_ONE + 0.5f);
 }
 
 void kiln_solid_canvas_write(const struct kiln_solid_canvas *canvas, uint32_t *texels)

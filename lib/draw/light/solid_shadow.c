@@ -300,7 +300,7 @@ struct range {
 static uint32_t bin_at(const struct layout *layout, float distance)
 {
     float at = distance / layout->size, last = (float)(layout->edge - 1);
-    return (uint32_t)(at > 0.0f ? fminf(at, last) : 0.0f);
+    return exact_uint(at > 0.0f ? fminf(at, last) : 0.0f);
 }
 
 static struct range bins_of(const struct layout *layout, const struct solid *s)

@@ -48,7 +48,7 @@ static float area(struct corner a, struct corner b, float x, float y)
 
 static int cell_at(float x)
 {
-    return (int)exact_clamp(x, 0.0f, (float)(EDGE - 1));
+    return exact_int(exact_clamp(x, 0.0f, (float)(EDGE - 1)));
 }
 
 static void draw_triangle(struct kiln_sun_mesh *map, const struct corner c[3])
@@ -111,8 +111,8 @@ void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mes
 
 static inline int floor_of(float x)
 {
-    const int whole = (int)x;
-    return whole - ((float)whole > x);
+    const int whole = exact_int(x);
+    return whole - (whole > INT32_MIN && (float)whole > x);
 }
 
 /* Holds the cover of a place in the map, and the mean height there times the cover. */

@@ -5,6 +5,7 @@
 #include <assert.h>
 
 #include "shared/derived.h"
+#include "shared/exact.h"
 #include "shared/look_layout.h"
 
 static_assert(ORIENT_VELOCITY == KILN_ORIENT_VELOCITY && ORIENT_SPIN == KILN_ORIENT_SPIN,
@@ -20,7 +21,7 @@ float4 kiln_appearance_look(const struct kiln_appearance_system *system, uint32_
                             float progress)
 {
     float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
-    uint32_t i = (uint32_t)x;
+    uint32_t i = exact_uint(x);
     if (i > KILN_LOOK_SAMPLES - 2)
         i = KILN_LOOK_SAMPLES - 2;
     const float4 *samples = system->rows + (size_t)row * KILN_LOOK_SAMPLES;

@@ -6,6 +6,7 @@
 #include "base/simd.h"
 #include "draw/moment/appearance.h"
 #include "particles/lanes.h"
+#include "shared/exact.h"
 #include "shared/look_layout.h"
 
 /* Holds the struct kiln_appearance of each slot; where no particle lives, radius and opacity are 0.
@@ -27,7 +28,7 @@ struct kiln_look_place {
 static inline struct kiln_look_place kiln_look_place_at(float progress)
 {
     float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
-    int sample = (int)x;
+    int sample = exact_int(x);
     sample = sample > KILN_LOOK_SAMPLES - 2 ? KILN_LOOK_SAMPLES - 2 : sample;
     return (struct kiln_look_place){sample, 4 * sample, x - (float)sample};
 }

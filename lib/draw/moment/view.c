@@ -122,8 +122,8 @@ struct kiln_view kiln_view_coarse(const struct kiln_view *view, uint32_t factor)
 {
     struct kiln_view coarse = *view;
     float part = (float)factor;
-    uint32_t width = ((uint32_t)view->frustum.z + factor - 1) / factor;
-    uint32_t height = ((uint32_t)view->frustum.w + factor - 1) / factor;
+    uint32_t width = (exact_uint(view->frustum.z) + factor - 1) / factor;
+    uint32_t height = (exact_uint(view->frustum.w) + factor - 1) / factor;
     coarse.frustum = (float4){view->frustum.x * ((float)width * part / view->frustum.z),
                               view->frustum.y * ((float)height * part / view->frustum.w),
                               (float)width, (float)height};

@@ -11,6 +11,7 @@
 #include "draw/solids/solid_rows.h"
 #include "scene/work.h"
 #include "shared/derived.h"
+#include "shared/exact.h"
 
 enum { GRAIN = 512 };
 
@@ -145,8 +146,8 @@ static struct kiln_row_range between_tangents(float aside, float depth, float ra
     float high = (aside * t + depth * radius) / (depth * t - aside * radius);
     low = low * scale + middle - 2.0f;
     high = high * scale + middle + 3.0f;
-    return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
-                                   (int16_t)exact_clamp(high, 0.0f, size)};
+    return (struct kiln_row_range){(int16_t)exact_int(exact_clamp(low, 0.0f, size)),
+                                   (int16_t)exact_int(exact_clamp(high, 0.0f, size))};
 }
 
 /* Bounds the columns and rows that a particle may touch by those of its bounding sphere. Where the
@@ -157,8 +158,8 @@ static void bound_ball(const struct kiln_view *view, const float center[3], floa
     const float4 frustum = view->frustum, principal = view->principal;
     float depth = -center[2];
     if (depth - radius <= view->eye.w) {
-        *x = (struct kiln_row_range){0, (int16_t)frustum.z};
-        *y = (struct kiln_row_range){0, (int16_t)frustum.w};
+        *x = (struct kiln_row_range){0, (int16_t)exact_int(frustum.z)};
+        *y = (struct kiln_row_range){0, (int16_t)exact_int(frustum.w)};
         return;
     }
     *x = between_tangents(center[0], depth, radius, 0.5f * frustum.z / frustum.x, principal.x,

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "draw/sprites/cell_pool.h"
+#include "shared/exact.h"
 
 enum {
     MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,
@@ -323,7 +324,7 @@ static struct bilinear place(float x, float y, uint32_t edge)
     const float position[2] = {x, y};
     for (int i = 0; i < 2; i++) {
         float texel = clamp(position[i] * (float)edge - 0.5f, 0.0f, (float)(edge - 1));
-        at.from[i] = (uint32_t)texel;
+        at.from[i] = exact_uint(texel);
         at.to[i] = at.from[i] + 1 < edge ? at.from[i] + 1 : at.from[i];
         at.part[i] = texel - (float)at.from[i];
     }
@@ -411,8 +412,8 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
             read_texel(from, edge, u - part * x_way, v - part * y_way, first);
             read_texel(to, edge, u + left * x_way, v + left * y_way, second);
             for (int c = 0; c < 4; c++)
-                texel[c] =
-                    (uint8_t)(clamp(first[c] + (second[c] - first[c]) * part, 0.0f, 255.0f) + 0.5f);
+                texel[c] = (uint8_t)exact_int(
+                    clamp(first[c] + (second[c] - first[c]) * part, 0.0f, 255.0f) + 0.5f);
         }
     }
     lay_out_cell(texels, edge, &cells->texels[number]);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "draw/sprites/coarse_rows.h"
 #include "shared/coarse.h"
+#include "shared/exact.h"
 
 enum { ROWS_AT_A_TIME = 4 }; /* rows that a thread takes at once */
 
@@ -33,7 +34,7 @@ static struct kiln_coarse_place find_place(uint32_t pixel, float margin, uint32_
                                            uint32_t count)
 {
     struct kiln_coarse_place place = {.at = ((float)pixel + 0.5f + margin) / (float)factor - 0.5f};
-    int32_t low = (int32_t)(place.at + 1.0f) - 1; /* floor, since `at` > -1 */
+    int32_t low = exact_int(place.at + 1.0f) - 1; /* floor, since `at` > -1 */
     place.part = place.at - (float)low;
     place.containing = limit(place.part < 0.5f ? low : low + 1, count);
     const float4 weights = coarse_spline(place.part);

@@ -6,6 +6,7 @@
 
 #include "draw/sprites/coarse_rows.h"
 #include "shared/coarse.h"
+#include "shared/exact.h"
 
 typedef kiln_coarse_quad quad;
 typedef int32_t mask __attribute__((vector_size(16)));
@@ -42,7 +43,7 @@ struct range {
 /* Returns the range of the frame's columns or rows that lie in a coarse one. */
 static inline struct range pixels_of(uint32_t coarse, float margin, uint32_t factor, uint32_t size)
 {
-    uint32_t past = (uint32_t)margin, from = coarse * factor;
+    uint32_t past = exact_uint(margin), from = coarse * factor;
     return (struct range){from > past ? from - past : 0,
                           from + factor - past < size ? from + factor - past : size};
 }

@@ -10,6 +10,7 @@
 #include "draw/sprites/texels.h"
 #include "draw/sprites/tile.h"
 #include "shared/billboard_place.h"
+#include "shared/exact.h"
 
 /* Holds the data that all pixels of a sprite share. */
 struct brush {
@@ -67,11 +68,11 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
         return;
     b->sampled = SAMPLED_UNIT / (float)PART_ONE;
     b->next = cells->texels[s->next_cell].forms[form];
-    b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
+    b->part = exact_int(s->part * (float)PART_ONE + 0.5f);
     b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
     float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
-    b->cell_move = (int32_t)least(full * s->part + 0.5f, 32767.0f);
-    b->next_move = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
+    b->cell_move = exact_int(least(full * s->part + 0.5f, 32767.0f));
+    b->next_move = exact_int(least(full * (1.0f - s->part) + 0.5f, 32767.0f));
     b->move_shift = 0;
     for (int32_t edge = b->edge / PLACE_ONE; edge > KILN_ATLAS_MOTION; edge >>= 1)
         b->move_shift++;

@@ -2,6 +2,7 @@
  * bounds of each triangle and in all layers. */
 #include "base/lane_math.h"
 #include "draw/vector/mesh_rows.h"
+#include "shared/exact.h"
 
 /* Returns what a plane has in a row, without its part that changes with u. */
 static inline float rest_of(const float plane[3], float v)
@@ -57,8 +58,8 @@ static inline void draw_layer(const struct kiln_mesh_strip *s,
 {
     /* from the first row whose samples are below the triangle's top to the last above its bottom */
     const float down = s->offsets[layer][1], end = (float)(s->y + s->rows);
-    const int32_t from = (int32_t)exact_clamp(t->top - down + 1.0f, (float)s->y, end);
-    const int32_t to = (int32_t)exact_clamp(t->bottom - down + 1.0f, (float)s->y, end);
+    const int32_t from = exact_int(exact_clamp(t->top - down + 1.0f, (float)s->y, end));
+    const int32_t to = exact_int(exact_clamp(t->bottom - down + 1.0f, (float)s->y, end));
     for (int32_t x = t->x.from; x < t->x.to; x += LANES) {
         const struct across across = across_columns(s, t, x, layer);
         for (int32_t y = from; y < to; y++) {

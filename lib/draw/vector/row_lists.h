@@ -41,8 +41,8 @@ struct kiln_row_lists {
 /* Returns the rows, or the columns, that have samples between two positions, out of `size`. */
 static inline struct kiln_row_range kiln_row_range_between(float low, float high, float size)
 {
-    return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
-                                   (int16_t)exact_clamp(high + 1.0f, 0.0f, size)};
+    return (struct kiln_row_range){(int16_t)exact_int(exact_clamp(low, 0.0f, size)),
+                                   (int16_t)exact_int(exact_clamp(high + 1.0f, 0.0f, size))};
 }
 
 /* Counts the items of each band. The lists start as zeros and may be used again.
