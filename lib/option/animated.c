@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "option/color.h"
+
 bool kiln_node_is_animated(const struct kiln_node *node)
 {
     return node->kind == KILN_NODE_MAP && node->first &&
@@ -14,10 +16,31 @@ bool kiln_node_is_animated(const struct kiln_node *node)
 
 /* ---- reading -------------------------------------------------------------------------------- */
 
-/* Returns whether one number may stand for all three components of the option's value. */
-static bool allows_grey(const struct kiln_option *option)
+/* Returns whether a scalar is nothing, a word or a text, such as "redd" or "0xff0000", and no
+ * faulty number.
+ */
+static bool is_word(const struct kiln_node *node)
 {
-    return option->type == &kiln_type_color;
+    return *node->text == '\0' || !strchr("+-.0123456789", *node->text) || node->text[1] == 'x';
+}
+
+/* Reports that a scalar is no colour: names a similar one, or the forms that a colour has. */
+static bool color_error(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node)
+{
+    const char *names[KILN_COLOR_NAMES];
+    for (size_t i = 0; i < KILN_COLOR_NAMES; i++)
+        names[i] = kiln_color_name_at(i);
+    const char *nearest = kiln_text_nearest(node->text, names, KILN_COLOR_NAMES);
+    if (nearest)
+        return kiln_reader_error(reader, node, "'%s' is not a colour; did you mean '%s'?",
+                                 node->text, nearest);
+    if (*node->text == '\0')
+        return kiln_reader_error(
+            reader, node,
+            "found nothing; a colour that begins with '#', which also begins a "
+            "comment, is in quotes: \"#e61e28\"");
+    return kiln_reader_mismatch(reader, option, node);
 }
 
 /* Reads the components of one key or of a constant, which are plain numbers. */
@@ -29,7 +52,11 @@ static bool read_plain(struct kiln_reader *reader, const struct kiln_option *opt
     number.clocks = 0;
     if (count == 1)
         return kiln_read_float(reader, &number, node, out);
-    if (node->kind == KILN_NODE_SCALAR && allows_grey(option)) {
+    if (node->kind == KILN_NODE_SCALAR && option->type == &kiln_type_color) {
+        if (kiln_color_parse(node->text, out))
+            return true;
+        if (is_word(node))
+            return color_error(reader, option, node);
         if (!kiln_read_float(reader, &number, node, out))
             return false;
         out[1] = out[2] = out[0];
@@ -215,7 +242,7 @@ bool kiln_read_animated(struct kiln_reader *reader, const struct kiln_option *op
         }
         return true;
     }
-    if (node->kind == KILN_NODE_LIST || (count == 3 && !allows_grey(option)))
+    if (node->kind == KILN_NODE_LIST || (count == 3 && option->type != &kiln_type_color))
         return kiln_reader_mismatch(reader, option, node);
     float constant[3] = {0};
     if (!read_plain(reader, option, node, constant, count))

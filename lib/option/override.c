@@ -208,6 +208,13 @@ static bool split_key(struct override *override, char *key)
     return true;
 }
 
+/* Returns whether a value is a colour such as #e61e28. In YAML, '#' would begin a comment. */
+static bool is_hex_color(const char *value)
+{
+    return value[0] == '#' && value[1] != '\0' &&
+           value[1 + strspn(value + 1, "0123456789abcdefABCDEF")] == '\0';
+}
+
 bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
                    struct kiln_node *root, const char *text)
 {
@@ -225,7 +232,8 @@ bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
     char *key = kiln_arena_text(arena, text, (size_t)(equals - text));
     char *name = kiln_arena_alloc(arena, MAX_KEY + 8, 1);
     struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
-    char *value = kiln_arena_text(arena, equals + 1, strlen(equals + 1));
+    char *value = is_hex_color(equals + 1) ? kiln_arena_format(arena, "\"%s\"", equals + 1)
+                                           : kiln_arena_text(arena, equals + 1, strlen(equals + 1));
     if (!key || !name || !origin || !value)
         return kiln_reader_out_of_memory(reader);
     snprintf(name, MAX_KEY + 8, "--set %s", key);

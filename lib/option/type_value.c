@@ -98,17 +98,6 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
     return true;
 }
 
-/* Reads a colour. Words such as "red" and "0xff0000" get an error about the expected form, not one
- * about a faulty number. */
-static bool read_color(struct kiln_reader *reader, const struct kiln_option *option,
-                       const struct kiln_node *node, void *field)
-{
-    const bool is_word = node->kind == KILN_NODE_SCALAR &&
-                         (!strchr("+-.0123456789", *node->text) || node->text[1] == 'x');
-    return is_word ? kiln_reader_mismatch(reader, option, node)
-                   : read_vector(reader, option, node, field);
-}
-
 /* Returns whether the three curves can be written as one curve of [x, y, z]. */
 static bool share_keys(const float4 *keys, const struct kiln_value3 *v)
 {
@@ -173,7 +162,13 @@ static void describe_color(const struct kiln_option *option, struct kiln_text *o
 {
     kiln_text_add(out, "[red, green, blue] or one number for grey, linear, each");
     kiln_option_describe_limits(option, out);
+    kiln_text_add(out, ", or in sRGB \"#e61e28\", \"#abc\" or a name of CSS");
 }
+
+/* The schema of a colour in sRGB. Names are not listed, since each row of colours would list them.
+ */
+static const char SRGB[] = "{\"type\": \"string\", \"pattern\": "
+                           "\"^(#[0-9A-Fa-f]{3}([0-9A-Fa-f]{3})?|[A-Za-z]+)$\"}";
 
 static void schema_vector(const struct kiln_option *option, struct kiln_text *out)
 {
@@ -187,11 +182,11 @@ static void schema_vector(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(&plain, "%s", grey ? "{\"anyOf\": [" : "");
     kiln_text_add(&plain, array, item);
     if (grey)
-        kiln_text_add(&plain, ", %s]}", item);
+        kiln_text_add(&plain, ", %s, %s]}", item, SRGB);
     kiln_text_add(out, "{\"anyOf\": [");
     kiln_text_add(out, array, animated);
     if (grey)
-        kiln_text_add(out, ", %s", item);
+        kiln_text_add(out, ", %s, %s", item, SRGB);
     schema_curves(option, plain.data ? plain.data : "", out);
     kiln_text_add(out, "]}");
     out->failed |= number.failed || component.failed || plain.failed;
@@ -207,7 +202,7 @@ const struct kiln_option_type kiln_type_vector = {
     .schema = schema_vector,
 };
 const struct kiln_option_type kiln_type_color = {
-    .read = read_color,
+    .read = read_vector,
     .print = print_vector,
     .describe = describe_color,
     .schema = schema_vector,

@@ -20,7 +20,9 @@ static const char scene_introduction[] =
     "({keys: {0 s: [1, 0, 0], 1 s: [0, 1, 0]}}) or in each component.\n"
     "\n"
     "Lengths are in metres. The axes are right-handed, with y up.\n"
-    "Colours are linear, with Rec. 709 primaries.\n"
+    "Numbers of colours are linear light, with Rec. 709 primaries. \"#e61e28\", \"#abc\" and the "
+    "names\n"
+    "of CSS, such as orange or rebeccapurple, are sRGB, wherever a colour stands.\n"
     "\n";
 
 bool kiln_scene_write_reference(FILE *out)

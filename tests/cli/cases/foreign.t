@@ -85,11 +85,7 @@ $ kiln scenes/tiny.yaml -o x.mp4
 2|kiln: a command is missing: 'kiln render scenes/tiny.yaml' renders a scene
 = 2
 $ for color in red '#ff0000' 0xff0000 "'#ff0000'"; do kiln check -q scenes/tiny.yaml --set "backdrop.floor.color=$color"; done
-2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found 'red'
-2|--set backdrop.floor.color: the value after '=' is empty; '#' begins a comment
-2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found '0xff0000'
-2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found the text "#ff0000"
-= 3
+2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or in sRGB "#e61e28", "#abc" or a name of CSS, or {keys: {time: value}}, found '0xff0000'
 
 $ for option in -c --camera --samples --snapshot; do kiln render scenes/tiny.yaml $option; done; kiln compare a b --out
 2|kiln: render: unknown option '-c'; a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'
