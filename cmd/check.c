@@ -19,6 +19,9 @@
 #include "signals.h"
 
 static const struct option options[] = {
+    SIZE_OPTION,
+    FPS_OPTION,
+    SEED_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,

@@ -18,8 +18,10 @@
          .placeholder = "FILE",                                                                    \
          .help = "Write a rule for make into this file. The rule names the files that the figure " \
                  "is made of."},                                                                   \
+        {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},               \
     {                                                                                              \
-        .name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."                  \
+        .name = "quiet", .letter = 'q', .kind = OPTION_FLAG,                                       \
+        .help = "Print nothing but warnings and errors, as is done in any case."                   \
     }
 
 #define FIGURE_LOOK_OPTIONS                                                                        \

@@ -234,6 +234,22 @@ void help_print_overview(FILE *out)
                  "  kiln render fire.yaml -o fire.png --frames 60\n");
 }
 
+/* Prints the keys of scenes at or below a key, and those that mention a text; NULL: all. */
+static int print_keys(const char *below, const char *text)
+{
+    size_t count;
+    if (!kiln_scene_write_keys(stdout, below, text, &count))
+        return ferror(stdout) ? KILN_IO : report_no_memory();
+    if (count > 0)
+        return 0;
+    char shown[128];
+    kiln_shown(shown, sizeof shown, text ? text : below);
+    return report(KILN_USAGE,
+                  text ? "help: no key of a scene mentions '%s'; 'kiln help' lists the topics"
+                       : "help: a scene has no key '%s'; 'kiln help scene' lists the keys",
+                  shown);
+}
+
 static int unknown_topic(const char *name)
 {
     const char *names[MAX_COMMANDS + TOPIC_COUNT];
@@ -253,6 +269,11 @@ static int run(const struct arguments *arguments)
     }
     const char *name = arguments->operands[0];
     const char *second = arguments->operand_count > 1 ? arguments->operands[1] : NULL;
+    const char *text = arguments_text(arguments, "search", NULL);
+    if (strcmp(name, "scene") == 0 && (second || text))
+        return print_keys(second, text);
+    if (text)
+        return report(KILN_USAGE, "help: --search searches the keys of 'kiln help scene'");
     const struct command *command = command_find(name, second);
     if (second && (!command || strcmp(command->name, name) == 0)) {
         for (size_t i = 0; commands[i]; i++) {
@@ -271,18 +292,30 @@ static int run(const struct arguments *arguments)
         if (strcmp(topics[i].name, name) == 0)
             return topics[i].write(stdout) ? 0 : KILN_IO;
     }
-    return unknown_topic(name);
+    size_t count = 0; /* no topic: a word of scenes, perhaps */
+    if (!second && !kiln_scene_write_keys(stdout, NULL, name, &count))
+        return ferror(stdout) ? KILN_IO : report_no_memory();
+    return count > 0 ? 0 : unknown_topic(name);
 }
 
-static const struct option options[] = {HELP_OPTION};
+static const struct option options[] = {
+    {.name = "search",
+     .kind = OPTION_TEXT,
+     .placeholder = "TEXT",
+     .help = "Of 'kiln help scene', print the keys that mention a text."},
+    HELP_OPTION,
+};
 
 const struct command help_command = {
     .name = "help",
     .summary = "explain a command or a topic",
-    .operands = "[TOPIC]",
-    .description = "Explains a command or a topic. Without an operand, it lists both.",
+    .operands = "[TOPIC [KEY]]",
+    .description =
+        "Explains a command or a topic. Without an operand, it lists both. 'kiln help scene "
+        "systems.NAME.look' prints that part of a scene's keys, and 'kiln help scene "
+        "--search WORD' those that mention a word.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .most_operands = 2, /* a command of two words */
+    .most_operands = 2, /* a command of two words, or a key */
     .run = run,
 };

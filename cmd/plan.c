@@ -35,6 +35,7 @@ static const struct option options[] = {
      .max = UINT32_MAX},
     SIZE_OPTION,
     FPS_OPTION,
+    SEED_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,

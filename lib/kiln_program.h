@@ -54,6 +54,11 @@ bool kiln_compare_with_output(const struct kiln_compare_params *params, const ch
 
 /* Write the reference of every scene key, for people, and the JSON schema, for editors. */
 bool kiln_scene_write_reference(FILE *out);
+
+/* Writes those keys of the reference that lie at or below a key, such as systems.fire.look, and
+ * mention a text; NULL: all. *count: how many were written. */
+bool kiln_scene_write_keys(FILE *out, const char *below, const char *text, size_t *count);
+
 bool kiln_scene_write_schema(FILE *out);
 
 /* A key of a file, in words for people. */

@@ -165,6 +165,59 @@ bool kiln_reference_write(FILE *out, const char *introduction, const struct kiln
     return ok;
 }
 
+/* Chooses keys of the reference. */
+struct choice {
+    const char *below, *text; /* NULL: all */
+    struct kiln_text out;
+    size_t count;
+};
+
+/* Returns whether a key lies at or below another one, part by part. NAME and N in the key's path
+ * stand for any name and number, and so does '*' in the other. */
+static bool is_below(const char *path, const char *below)
+{
+    while (*below) {
+        const size_t own = strcspn(path, "."), other = strcspn(below, ".");
+        const bool any = (own == 4 && strncmp(path, "NAME", 4) == 0) ||
+                         (own == 1 && *path == 'N') || (other == 1 && *below == '*');
+        if (own == 0 || (!any && (own != other || strncmp(path, below, own) != 0)))
+            return false;
+        path += own + (path[own] == '.');
+        below += other + (below[other] == '.');
+    }
+    return true;
+}
+
+static bool mentions(const char *where, const char *text)
+{
+    return where && strcasestr(where, text);
+}
+
+static void add_chosen(void *user, const struct kiln_option_key *key)
+{
+    struct choice *choice = user;
+    const char *text = choice->text;
+    if ((choice->below && !is_below(key->path, choice->below)) ||
+        (text && !mentions(key->path, text) && !mentions(key->help, text) &&
+         !mentions(key->allowed, text)))
+        return;
+    choice->count++;
+    add_key(&choice->out, key);
+}
+
+bool kiln_reference_write_some(FILE *out, const struct kiln_option *rows, const char *below,
+                               const char *text, size_t *count)
+{
+    struct choice choice = {.below = below, .text = text};
+    struct walk walk = {.visit = add_chosen, .user = &choice};
+    visit_rows(&walk, "", rows);
+    const bool ok = !walk.failed && !choice.out.failed &&
+                    (!choice.out.data || fputs(choice.out.data, out) >= 0) && fflush(out) == 0;
+    *count = choice.count;
+    kiln_text_free(&choice.out);
+    return ok;
+}
+
 bool kiln_reference_visit(const struct kiln_option *rows,
                           void (*visit)(void *user, const struct kiln_option_key *key), void *user)
 {

@@ -9,6 +9,12 @@
  * nested in it, its help, its allowed values and its default. */
 bool kiln_reference_write(FILE *out, const char *introduction, const struct kiln_option *rows);
 
+/* Writes those keys, as kiln_reference_write does, that lie at or below `below`, such as
+ * systems.fire.look, and mention a text in their name, help or values; NULL: all. *count: how many
+ * were written. */
+bool kiln_reference_write_some(FILE *out, const struct kiln_option *rows, const char *below,
+                               const char *text, size_t *count);
+
 /* Visits the keys in the order of the reference. The texts are valid until `visit` returns. Returns
  * false when memory is short. */
 bool kiln_reference_visit(const struct kiln_option *rows,

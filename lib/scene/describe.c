@@ -30,6 +30,11 @@ bool kiln_scene_write_reference(FILE *out)
     return kiln_reference_write(out, scene_introduction, kiln_options_root);
 }
 
+bool kiln_scene_write_keys(FILE *out, const char *below, const char *text, size_t *count)
+{
+    return kiln_reference_write_some(out, kiln_options_root, below, text, count);
+}
+
 const char *kiln_scene_introduction(void)
 {
     return scene_introduction;

@@ -24,7 +24,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln new [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln check [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln devices [\fIOPTION...\fR]
-1|.SS kiln help [\fIOPTION...\fR] \fI[TOPIC]\fR
+1|.SS kiln help [\fIOPTION...\fR] \fI[TOPIC [KEY]]\fR
 1|.SH OUTPUTS
 1|.SH TEMPLATES
 1|.SH TECHNIQUES
@@ -38,7 +38,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|332
+1|340
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION

@@ -123,6 +123,27 @@ $ kiln help tecniques
 $ kiln help frobnicate
 2|kiln: help: unknown topic 'frobnicate'; 'kiln help' lists the topics
 = 2
+$ kiln help scene systems.fire.look.spin
+1|systems.NAME.look.spin
+1|    Angular speed of a particle. Speed and direction are chosen at random for each particle.
+1|    [min, max] or one number, from 0 deg/s to 36000 deg/s; unit deg/s or rad/s
+1|    may vary over time or life
+1|    default: 0 deg/s
+1|
+$ kiln help scene camera.shutter --search phase | grep -c '^camera'
+1|1
+$ kiln help meteor
+2|kiln: help: unknown topic 'meteor'; 'kiln help' lists the topics
+= 2
+$ kiln help aperture | head -n 1
+1|camera.aperture
+$ kiln help scene systems.x.y
+2|kiln: help: a scene has no key 'systems.x.y'; 'kiln help scene' lists the keys
+= 2
+$ kiln help scene --search zzz; kiln help limits --search x
+2|kiln: help: no key of a scene mentions 'zzz'; 'kiln help' lists the topics
+2|kiln: help: --search searches the keys of 'kiln help scene'
+= 2
 $ kiln help render check
 2|kiln: help: one operand too many, 'check'
 = 2
@@ -382,6 +403,11 @@ $ kiln help check
 1|scenes are checked all the same. A scene that asks for more than --limits allow
 1|ends with exit code 8.
 1|
+1|      --size WxH              Size of the picture in pixels: --set
+1|                              output.size=[W, H].
+1|      --fps RATE              Frames a second, such as 30 or 30000/1001: --set
+1|                              output.fps=RATE.
+1|      --seed N                Seed of all random numbers: --set seed=N.
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands
 1|                              for every entry of a map or list.
@@ -437,10 +463,14 @@ $ kiln help devices
 1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 $ kiln help help
-1|usage: kiln help [OPTION...] [TOPIC]
+1|usage: kiln help [OPTION...] [TOPIC [KEY]]
 1|
-1|Explains a command or a topic. Without an operand, it lists both.
+1|Explains a command or a topic. Without an operand, it lists both. 'kiln help
+1|scene systems.NAME.look' prints that part of a scene's keys, and 'kiln help
+1|scene --search WORD' those that mention a word.
 1|
+1|      --search TEXT           Of 'kiln help scene', print the keys that mention
+1|                              a text.
 1|  -h, --help                  Print this help.
 $ kiln help exit-codes
 1| CODE  AGAIN?     MEANING
