@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/log.h"
 
 /* ---- path and errors ------------------------------------------------------------------------- */
 
@@ -66,14 +67,12 @@ static const struct kiln_node *entry_of_list(const struct kiln_node *list, const
     return entry;
 }
 
-bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *root,
-                          const char *path, const char *format, ...)
+/* Sets the error to a message about the node that a path leads to, or about the last one on the way
+ * that exists. */
+static bool set_error_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                         const char *message)
 {
-    char message[KILN_MESSAGE_SIZE], name[64];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
-    va_end(args);
+    char name[64];
     const struct kiln_node *node = root;
     for (const char *part = path; node && *part;) {
         size_t length = strcspn(part, ".");
@@ -89,6 +88,32 @@ bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *ro
     snprintf(reader->path, sizeof reader->path, "%s", path);
     reader->path_length = strlen(reader->path);
     return kiln_reader_error(reader, node, "%s", message);
+}
+
+bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *root,
+                          const char *path, const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    return set_error_at(reader, root, path, message);
+}
+
+void kiln_reader_warn_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                         const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    struct kiln_error found = {0}, *kept = reader->error;
+    reader->error = &found;
+    set_error_at(reader, root, path, message);
+    reader->error = kept;
+    kiln_log_write(reader->log, KILN_LOG_WARNING, "%s", found.message);
 }
 
 bool kiln_reader_out_of_memory(struct kiln_reader *reader)

@@ -38,6 +38,10 @@ bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *ro
                           const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* Logs a warning with the place that kiln_reader_error_at finds. */
+void kiln_reader_warn_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                         const char *format, ...) __attribute__((format(printf, 4, 5)));
+
 /* Fills the error with "expected <allowed values>, found <the node>"; returns false. */
 bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node);

@@ -207,10 +207,25 @@ void kiln_unit_pattern(char out[64], enum kiln_dimension dimension)
         snprintf(out + length, 64 - length, ")");
 }
 
+/* The rates of broadcast, which are written rounded: thousands of frames in 1001 seconds. */
+static const struct {
+    const char *text;
+    uint64_t thousands;
+} BROADCAST[] = {{"23.976", 24}, {"23.98", 24}, {"29.97", 30},  {"47.952", 48},
+                 {"47.95", 48},  {"59.94", 60}, {"119.88", 120}};
+
 bool kiln_unit_parse_rational(const char *text, uint64_t *num, uint64_t *den)
 {
     char part[24];
     size_t length = strcspn(text, "/.");
+    for (size_t i = 0; i < sizeof BROADCAST / sizeof *BROADCAST; i++) {
+        if (strcmp(text, BROADCAST[i].text) != 0)
+            continue;
+        *num = 1000 * BROADCAST[i].thousands;
+        *den = 1001;
+        kiln_unit_reduce(num, den);
+        return true;
+    }
     if (length >= sizeof part || length == 0)
         return false;
     memcpy(part, text, length);

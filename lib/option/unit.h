@@ -37,8 +37,9 @@ bool kiln_unit_is_required(enum kiln_dimension dimension);
 /* Reduces a fraction of two positive numbers. */
 void kiln_unit_reduce(uint64_t *num, uint64_t *den);
 
-/* Reads "30", "29.97" or "30000/1001" as a positive fraction in its lowest terms, whose denominator
- * is at most a million. */
+/* Reads "30", "12.5" or "30000/1001" as a positive fraction in its lowest terms, whose denominator
+ * is at most a million. The rounded rates of broadcast, such as "29.97", are those that they stand
+ * for: 30000/1001. */
 bool kiln_unit_parse_rational(const char *text, uint64_t *num, uint64_t *den);
 
 /* Splits "2.5 cm" into its number and its unit, which points into text. Returns false if text does

@@ -119,7 +119,7 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
     if (!kiln_validate(reader, root) || !kiln_work_check(reader, root, estimate) ||
         !take_hash(scene, reader->error) || !kiln_budget_is_kept(scene->budget, reader->error))
         return false;
-    kiln_small_steps_warn(reader, root, &params->log);
+    kiln_small_steps_warn(reader, root);
     kiln_mesh_notes_warn(reader, root, &params->log);
     return true;
 }

@@ -29,10 +29,12 @@ TABLE(camera) = {
           "Angle by which the camera is turned about its line of sight."),
     VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
           "Distance of the near plane; nothing nearer than this is drawn."),
-    VALUE(VIEW, "aperture", aperture, KILN_METRES, 0, 10, TIME, "0 m",
-          "Diameter of the lens, which blurs what is out of focus: a point at distance d is a disc "
-          "of diameter aperture * |d - focus| / d in the plane of focus. 0 m is a pinhole, which "
-          "blurs nothing. It takes output.samples or camera.shutter.samples."),
+    VALUE(
+        VIEW, "aperture", aperture, KILN_METRES, 0, 10, TIME, "0 m",
+        "Diameter of the lens, which blurs what is out of focus: a point at distance d is a disc "
+        "of diameter aperture * |d - focus| / d in the plane of focus. 0 m is a pinhole, which "
+        "blurs nothing. It takes output.samples or camera.shutter.samples: of one moment, a frame "
+        "shows what a pinhole does, and a warning says so."),
     {ROW(VIEW, "focus", value, focus, "target",
          "Distance along the line of sight at which the picture is sharp. target is the distance "
          "of the point that the camera looks at."),
@@ -52,7 +54,8 @@ TABLE(output) = {
             "pixel beyond its middle: 4 or 16 for a still with smooth edges. A frame is drawn once "
             "for each of them; moments of the shutter count as such."),
     {ROW(VIEW, "fps", rational, fps, "30",
-         "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
+         "Frames a second: 30, 12.5 or 30000/1001. 29.97 is 30000/1001, as broadcast means it; "
+         "so are 23.976, 47.952, 59.94 and 119.88."),
      LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},
     INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Number of frames in the clip."),
     END,

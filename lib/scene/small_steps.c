@@ -16,7 +16,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/log.h"
 #include "scene/scene.h"
 
 enum { TRUE_ULPS = 50 }; /* half an ulp is 1 % of these */
@@ -152,8 +151,7 @@ static float find_reach(const struct kiln_scene *scene, const struct kiln_system
 /* ---- warning --------------------------------------------------------------------------------- */
 
 static void warn(struct kiln_reader *reader, const struct kiln_node *root,
-                 const struct kiln_log *log, const struct kiln_system *system, float speed,
-                 float place)
+                 const struct kiln_system *system, float speed, float place)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
     const double rate = (double)scene->rate.num / (double)scene->rate.den;
@@ -165,21 +163,17 @@ static void warn(struct kiln_reader *reader, const struct kiln_node *root,
         snprintf(loss, sizeof loss, "their speed is up to %.2g %% off", 100.0 * error);
     else
         snprintf(loss, sizeof loss, "they may not move at all");
-    struct kiln_error found = {0}, *kept = reader->error;
-    reader->error = &found;
-    kiln_reader_error_at(reader, root, path,
-                         "a step of particles at %.3g m/s is %.2g m, and positions %.*f m from the "
-                         "origin are multiples of %.2g m, so that %s; at %.6g steps a second, "
-                         "speeds from %.3g m/s on are true to 1 %% there: lower simulation.rate, "
-                         "or move the scene to the origin",
-                         (double)speed, (double)speed / rate, place < 10.0f ? 2 : 0, (double)place,
-                         ulp, loss, rate, kiln_small_steps_true_speed(place, rate));
-    reader->error = kept;
-    kiln_log_write(log, KILN_LOG_WARNING, "%s", found.message);
+    kiln_reader_warn_at(reader, root, path,
+                        "a step of particles at %.3g m/s is %.2g m, and positions %.*f m from the "
+                        "origin are multiples of %.2g m, so that %s; at %.6g steps a second, "
+                        "speeds from %.3g m/s on are true to 1 %% there: lower simulation.rate, "
+                        "or move the scene to the origin",
+                        (double)speed, (double)speed / rate, place < 10.0f ? 2 : 0, (double)place,
+                        ulp, loss, rate, kiln_small_steps_true_speed(place, rate));
 }
 
 static void check_system(struct kiln_reader *reader, const struct kiln_node *root,
-                         const struct kiln_log *log, const struct kiln_system *system)
+                         const struct kiln_system *system)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
     const float end_s = kiln_scene_time(scene, kiln_scene_frame_step(scene, scene->frames - 1));
@@ -195,15 +189,14 @@ static void check_system(struct kiln_reader *reader, const struct kiln_node *roo
     /* a particle that flies straight ahead gets farther away, where the ulp is greater */
     place += speed * life_s;
     if (speed > 0.0f && isfinite(place) && (double)speed < kiln_small_steps_true_speed(place, rate))
-        warn(reader, root, log, system, speed, place);
+        warn(reader, root, system, speed, place);
 }
 
-void kiln_small_steps_warn(struct kiln_reader *reader, const struct kiln_node *root,
-                           const struct kiln_log *log)
+void kiln_small_steps_warn(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         if (scene->systems[i].enabled)
-            check_system(reader, root, log, &scene->systems[i]);
+            check_system(reader, root, &scene->systems[i]);
     }
 }

@@ -11,7 +11,6 @@ double kiln_small_steps_true_speed(float place, double rate);
 /* Logs a warning with its place for each system whose particles are so slow and so far from the
  * origin that rounding their positions changes their speed by more than 1 %. The scene has been
  * validated; root is its tree. */
-void kiln_small_steps_warn(struct kiln_reader *reader, const struct kiln_node *root,
-                           const struct kiln_log *log);
+void kiln_small_steps_warn(struct kiln_reader *reader, const struct kiln_node *root);
 
 #endif

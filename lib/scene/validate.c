@@ -449,9 +449,10 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
                                     "frame");
     if (kiln_scene_value_max(scene, &scene->camera.aperture) > 0.0f &&
         kiln_scene_moment_count(scene) == 1)
-        return kiln_reader_error_at(reader, root, "camera.aperture",
-                                    "a lens is drawn by moments: output.samples or "
-                                    "camera.shutter.samples must be at least 2");
+        kiln_reader_warn_at(
+            reader, root, "camera.aperture",
+            "a lens is drawn by moments, and a frame has one: it shows what a pinhole "
+            "does; output.samples: 16 shows the lens");
     return true;
 }
 

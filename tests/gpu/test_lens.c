@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "asset/image/image.h"
+#include "scene/instant.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/errors.h"
@@ -175,16 +176,30 @@ static void the_circle_of_confusion_is_that_of_a_thin_lens(void **state)
     }
 }
 
+static void keep_warning(void *user, enum kiln_log_level level, const char *line)
+{
+    if (level == KILN_LOG_WARNING)
+        snprintf(user, KILN_MESSAGE_SIZE, "%s", line);
+}
+
 /* Depth of field is a mean over several moments of a frame, which are the instants that are drawn.
- * So a scene with a lens but only one moment a frame is an error. */
-static void a_lens_needs_moments(void **state)
+ * So a lens with only one moment a frame is a pinhole, which its author should know. */
+static void a_lens_with_one_moment_is_a_pinhole(void **state)
 {
     (void)state;
+    static const char text[] = "kiln: 1\ncamera: {aperture: 3 mm}\n";
     struct kiln_error error = {0};
-    assert_null(try_scene("kiln: 1\ncamera: {aperture: 3 mm}\n", NULL, &error));
-    expect_error(&error, KILN_INVALID_INPUT,
-                 SCENE_NAME ":2:20: camera.aperture: a lens is drawn by moments: "
-                            "output.samples or camera.shutter.samples must be at least 2");
+    char warning[KILN_MESSAGE_SIZE] = "";
+    struct kiln_scene_params params = kiln_scene_defaults();
+    params.log = (struct kiln_log){keep_warning, warning};
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), SCENE_NAME, &params, &error);
+    assert_non_null(scene);
+    assert_string_equal(warning, SCENE_NAME
+                        ":2:20: camera.aperture: a lens is drawn by moments, and a frame has one: "
+                        "it shows what a pinhole does; output.samples: 16 shows the lens");
+    const struct kiln_instant instant = kiln_scene_instant(scene, 0, 0);
+    assert_true(instant.lens_x == 0.0f && instant.lens_y == 0.0f);
+    kiln_scene_destroy(&scene);
 }
 
 int main(void)
@@ -192,7 +207,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(techniques_agree),
         test_on_device(the_circle_of_confusion_is_that_of_a_thin_lens),
-        test_on_device(a_lens_needs_moments),
+        test_on_device(a_lens_with_one_moment_is_a_pinhole),
     };
     return cmocka_run_group_tests_name("lens", tests, test_device_open, test_device_close);
 }

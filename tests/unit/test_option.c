@@ -182,7 +182,7 @@ static void a_document_fills_its_target(void **state)
     const struct plotter *p = &r.plotter;
     assert_true(p->quiet && p->limited && p->limit_s == 90 && p->pause_s == 0.02);
     assert_true(p->pens == 8 && p->width[0] == 3 && p->width[1] == 9);
-    assert_true(p->rate.num == 2997 && p->rate.den == 100);
+    assert_true(p->rate.num == 30000 && p->rate.den == 1001);
     assert_int_equal(p->medium, MEDIUM_GLASS);
     assert_string_equal(p->title, "a \"line\"");
     assert_true(p->room.enabled && p->room.max[2] == 3.0f);

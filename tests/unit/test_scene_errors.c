@@ -391,8 +391,8 @@ static const struct bad agreement[] = {
     {"kiln: 1\n"
      "output: {fps: 29.97}\n"
      "simulation: {rate: 60}\n",
-     ":3:20: simulation.rate: must be a whole multiple of output.fps; the nearest are 59.94 and "
-     "89.91"},
+     ":3:20: simulation.rate: must be a whole multiple of output.fps; the nearest are "
+     "60000/1001 and 90000/1001"},
     {"kiln: 1\n"
      "output: {fps: 24000/1001}\n"
      "simulation: {rate: 60}\n",
