@@ -53,6 +53,14 @@ TABLE(disc) = {
     END,
 };
 
+TABLE(ring) = {
+    PLACE("0 deg"),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0.5 m",
+          "Radius of the ring, which faces the direction."),
+    TURN,
+    END,
+};
+
 TABLE(cone) = {
     PLACE("15 deg"),
     VALUE(
@@ -84,6 +92,7 @@ KINDS(shapes) = {
      MEMBERS(box),
      .help = "A box whose edges lie along the axes."},
     {.name = "disc", .value = KILN_EMITTER_DISC, MEMBERS(disc), .help = "A flat disc."},
+    {.name = "ring", .value = KILN_EMITTER_RING, MEMBERS(ring), .help = "The rim of a disc."},
     {.name = "cone",
      .value = KILN_EMITTER_CONE,
      MEMBERS(cone),

@@ -46,6 +46,7 @@ enum kiln_emitter_shape {
     KILN_EMITTER_DISC,
     KILN_EMITTER_CONE,
     KILN_EMITTER_LINE,
+    KILN_EMITTER_RING, /* the rim of a disc */
 };
 
 enum kiln_event {

@@ -219,6 +219,7 @@ static const char *shape_name(const struct kiln_emitter *emit)
         [KILN_EMITTER_POINT] = "point", [KILN_EMITTER_SPHERE] = "sphere",
         [KILN_EMITTER_BOX] = "box",     [KILN_EMITTER_DISC] = "disc",
         [KILN_EMITTER_CONE] = "cone",   [KILN_EMITTER_LINE] = "line",
+        [KILN_EMITTER_RING] = "ring",
     };
     return names[emit->shape];
 }

@@ -352,6 +352,12 @@ static void on_disc(float3 at, bool surface)
     assert_true(fabsf(at.z) < 1e-5f && r <= 2.0001 && (!surface || r > 1.9999));
 }
 
+static void on_ring(float3 at, bool surface)
+{
+    (void)surface;
+    on_disc(at, true);
+}
+
 static void on_line(float3 at, bool surface)
 {
     (void)surface;
@@ -371,6 +377,7 @@ static void emitters_keep_to_their_shapes(void **state)
     check_shape(KILN_EMITTER_DISC, false, on_disc);
     check_shape(KILN_EMITTER_DISC, true, on_disc);
     check_shape(KILN_EMITTER_LINE, false, on_line);
+    check_shape(KILN_EMITTER_RING, false, on_ring);
 }
 
 /* Serial after serial, from the first end to the last and again: in the middles of equal parts. */

@@ -117,6 +117,7 @@ static void shapes_of_emitters_are_known(void **state)
         {"systems.a.emit.from=sphere: {}", BIT(EMIT_SPHERE)},
         {"systems.a.emit.from=box: {}", BIT(EMIT_BOX)},
         {"systems.a.emit.from=disc: {}", BIT(EMIT_DISC)},
+        {"systems.a.emit.from=ring: {}", BIT(EMIT_DISC)},
         {"systems.a.emit.from=cone: {}", BIT(EMIT_CONE)},
         {"systems.a.emit.from=line: {}", BIT(EMIT_LINE)},
         {"systems={a: {emit: {rate: 1}}, b: {emit: {rate: 1, from: {box: {}}}}}",

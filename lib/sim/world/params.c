@@ -62,10 +62,11 @@ static float4 to_float4(const float v[3])
 
 static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emitter *emit)
 {
+    const bool ring = emit->shape == KILN_EMITTER_RING;
     *params = (struct kiln_emit_params){
-        .shape = (uint)emit->shape,
+        .shape = ring ? EMIT_DISC : (uint)emit->shape,
         .outward = emit->outward,
-        .surface = emit->surface,
+        .surface = ring || emit->surface,
         .nozzles = emit->nozzles,
         .speed = emit->speed,
         .origin = emit->origin,
