@@ -261,6 +261,19 @@ static int unknown_topic(const char *name)
                   suggest(suggestion, "", name, names, count));
 }
 
+/* Prints a topic or, where the word is none, the keys of scenes that mention it. */
+static int print_topic(const char *name)
+{
+    for (size_t i = 0; i < TOPIC_COUNT; i++) {
+        if (strcmp(topics[i].name, name) == 0)
+            return topics[i].write(stdout) ? 0 : KILN_IO;
+    }
+    size_t count = 0;
+    if (!kiln_scene_write_keys(stdout, NULL, name, &count))
+        return ferror(stdout) ? KILN_IO : report_no_memory();
+    return count > 0 ? 0 : unknown_topic(name);
+}
+
 static int run(const struct arguments *arguments)
 {
     if (arguments->operand_count == 0) {
@@ -288,14 +301,7 @@ static int run(const struct arguments *arguments)
         help_print_command(command);
         return 0;
     }
-    for (size_t i = 0; i < TOPIC_COUNT; i++) {
-        if (strcmp(topics[i].name, name) == 0)
-            return topics[i].write(stdout) ? 0 : KILN_IO;
-    }
-    size_t count = 0; /* no topic: a word of scenes, perhaps */
-    if (!second && !kiln_scene_write_keys(stdout, NULL, name, &count))
-        return ferror(stdout) ? KILN_IO : report_no_memory();
-    return count > 0 ? 0 : unknown_topic(name);
+    return print_topic(name);
 }
 
 static const struct option options[] = {

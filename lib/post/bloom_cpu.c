@@ -110,7 +110,7 @@ void kiln_bloom_cpu_footprint(const struct kiln_scene *scene, struct kiln_footpr
     for (uint32_t i = 0; i < plan.level_count; i++)
         kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE,
                            (uint64_t)plan.levels[i].width * plan.levels[i].height,
-                           2 * 4 * sizeof(float));
+                           (size_t)2 * 4 * sizeof(float));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, footprint->threads,
                        row_length_of(scene->width) * sizeof(kiln_quad));
 }

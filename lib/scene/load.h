@@ -11,10 +11,10 @@ typedef void kiln_scene_estimate(const struct kiln_scene *scene, struct kiln_foo
 
 /* Do what kiln_scene_load and kiln_scene_parse promise; `estimate` says what the limit of memory is
  * compared with; NULL: nothing is. */
-struct kiln_scene *kiln_scene_load_with(const char *path, const struct kiln_scene_params *params,
+struct kiln_scene *kiln_scene_load_with(const char *path, const struct kiln_scene_params *given,
                                         kiln_scene_estimate *estimate, struct kiln_error *error);
 struct kiln_scene *kiln_scene_parse_with(const char *text, size_t size, const char *name,
-                                         const struct kiln_scene_params *params,
+                                         const struct kiln_scene_params *given,
                                          kiln_scene_estimate *estimate, struct kiln_error *error);
 
 #endif

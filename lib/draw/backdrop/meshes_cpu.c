@@ -62,7 +62,7 @@ static size_t bands_of(uint32_t height)
 /* Returns the pixels of a band, of all layers. */
 static size_t strip_of(uint32_t width)
 {
-    return KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch_of(width);
+    return (size_t)KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch_of(width);
 }
 
 static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)

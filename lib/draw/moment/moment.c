@@ -44,7 +44,8 @@ void kiln_moment_footprint(const struct kiln_scene *scene, struct kiln_footprint
     const struct kiln_moment *m = NULL;
     kiln_meshes_footprint(scene, footprint);
     kiln_instances_footprint(scene, footprint);
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, KILN_LOOK_TEXELS, sizeof *m->look_table);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, (uint64_t)KILN_LOOK_TEXELS,
+                       sizeof *m->look_table);
 }
 
 /* Makes the pool's records and spins available on the host. */

@@ -49,13 +49,13 @@ static size_t pitch_of(const struct kiln_scene *scene)
 /* Returns the number of samples that a thread has. */
 static size_t samples_of(const struct kiln_scene *scene)
 {
-    return KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * pitch_of(scene);
+    return (size_t)KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * pitch_of(scene);
 }
 
 /* Returns the number of words that a thread has for visible particles. */
 static size_t visible_words_of(const struct kiln_scene *scene)
 {
-    return KILN_SOLID_VISIBLE_WORDS * KILN_SOLID_SAMPLES * pitch_of(scene);
+    return (size_t)KILN_SOLID_VISIBLE_WORDS * KILN_SOLID_SAMPLES * pitch_of(scene);
 }
 
 static bool allocate(struct kiln_solids_cpu *stage)

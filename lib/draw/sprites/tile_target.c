@@ -7,12 +7,13 @@
 #include "draw/sprites/stream.h"
 
 /* Empties a row of a tile and loads the scene's depth into it; at: the row's first pixel. */
-static void begin_row(const struct kiln_tile_target *d, struct kiln_tile *tile, int y, size_t at)
+static void begin_row(const struct kiln_tile_target *target, struct kiln_tile *tile, int y,
+                      size_t at)
 {
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
-    memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
+    memcpy(planes[KILN_TILE_DEPTH], target->depth + at, (size_t)tile->width * sizeof(float));
     memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
-    if (d->added)
+    if (target->added)
         memset(tile->added[y], 0, KILN_TILE_ALPHA * sizeof *tile->added[y]);
 }
 
@@ -45,7 +46,7 @@ static inline void blend_pixels(const four drawn[4], const float passed[4], bool
 
 /* Blends a row of a tile over the result of earlier pieces, and its glow over the bloom of an
  * earlier pass, too, if that is kept. */
-static void store_row(const struct kiln_tile_target *d, const struct kiln_tile *tile, int y,
+static void store_row(const struct kiln_tile_target *target, const struct kiln_tile *tile, int y,
                       size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
@@ -56,31 +57,32 @@ static void store_row(const struct kiln_tile_target *d, const struct kiln_tile *
             memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
             memcpy(&glow[c], &planes[KILN_TILE_GLOW_RED + c][x], sizeof glow[c]);
             covering[c] = color[c];
-            if (d->glow == KILN_TILE_GLOW_APART) {
+            if (target->glow == KILN_TILE_GLOW_APART) {
                 color[c] += glow[c];
-                glow[c] *= d->weights[c];
+                glow[c] *= target->weights[c];
             }
         }
         four alpha;
         memcpy(&alpha, &planes[KILN_TILE_ALPHA][x], sizeof alpha);
-        const four left = 1.0f - (d->sum ? (four){0} : alpha);
+        const four left = 1.0f - (target->sum ? (four){0} : alpha);
         memcpy(passed, &left, sizeof passed);
         color[3] = glow[3] = covering[3] = alpha;
         transpose(color);
         transpose(glow);
         size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
-        blend_pixels(color, passed, !d->first, d->color + 4 * (at + x), count);
-        if (d->bloom)
-            blend_pixels(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
-        if (d->covering) {
+        blend_pixels(color, passed, !target->first, target->color + 4 * (at + x), count);
+        if (target->bloom)
+            blend_pixels(glow, passed, !target->first || target->keep_bloom,
+                         target->bloom + 4 * (at + x), count);
+        if (target->covering) {
             transpose(covering);
-            blend_pixels(covering, passed, !d->first, d->covering + 4 * (at + x), count);
+            blend_pixels(covering, passed, !target->first, target->covering + 4 * (at + x), count);
         }
     }
 }
 
 /* Adds a row of the light of additive sprites alone to the result of earlier pieces. */
-static void store_added(const struct kiln_tile_target *d, const struct kiln_tile *tile, int y,
+static void store_added(const struct kiln_tile_target *target, const struct kiln_tile *tile, int y,
                         size_t at)
 {
     static const float all[4] = {1.0f, 1.0f, 1.0f, 1.0f};
@@ -91,47 +93,47 @@ static void store_added(const struct kiln_tile_target *d, const struct kiln_tile
             memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
         transpose(color);
         size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
-        blend_pixels(color, all, !d->first, d->added + 4 * (at + x), count);
+        blend_pixels(color, all, !target->first, target->added + 4 * (at + x), count);
     }
 }
 
-void kiln_tile_begin(const struct kiln_tile_target *d, struct kiln_tile *tile, uint32_t x,
+void kiln_tile_begin(const struct kiln_tile_target *target, struct kiln_tile *tile, uint32_t x,
                      uint32_t y)
 {
-    const uint32_t width = d->width - x, height = d->height - y;
+    const uint32_t width = target->width - x, height = target->height - y;
     tile->x = (int)x;
     tile->y = (int)y;
     tile->width = width < KILN_TILE_WIDTH ? (int)width : KILN_TILE_WIDTH;
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
-    tile->glow = d->glow;
-    tile->adds_apart = d->added != NULL;
-    tile->over = !d->sum && !d->by_fragment;
+    tile->glow = target->glow;
+    tile->adds_apart = target->added != NULL;
+    tile->over = !target->sum && !target->by_fragment;
     for (int row = 0; row < tile->height; row++)
-        begin_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+        begin_row(target, tile, row, (size_t)(y + (uint32_t)row) * target->width + x);
 }
 
-void kiln_tile_end(const struct kiln_tile_target *d, const struct kiln_tile *tile)
+void kiln_tile_end(const struct kiln_tile_target *target, const struct kiln_tile *tile)
 {
     const uint32_t x = (uint32_t)tile->x, y = (uint32_t)tile->y;
     for (int row = 0; row < tile->height; row++)
-        store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
-    for (int row = 0; row < tile->height && d->added; row++)
-        store_added(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+        store_row(target, tile, row, (size_t)(y + (uint32_t)row) * target->width + x);
+    for (int row = 0; row < tile->height && target->added; row++)
+        store_added(target, tile, row, (size_t)(y + (uint32_t)row) * target->width + x);
     stream_end();
 }
 
-void kiln_tile_skip(const struct kiln_tile_target *d, uint32_t x, uint32_t y)
+void kiln_tile_skip(const struct kiln_tile_target *target, uint32_t x, uint32_t y)
 {
-    const uint32_t width = d->width - x, height = d->height - y;
+    const uint32_t width = target->width - x, height = target->height - y;
     const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
-    for (uint32_t row = 0; row < height && row < KILN_TILE_HEIGHT && d->first; row++) {
-        const size_t place = 4 * ((size_t)(y + row) * d->width + x);
-        memset(d->color + place, 0, bytes);
-        if (d->bloom && !d->keep_bloom)
-            memset(d->bloom + place, 0, bytes);
-        if (d->covering)
-            memset(d->covering + place, 0, bytes);
-        if (d->added)
-            memset(d->added + place, 0, bytes);
+    for (uint32_t row = 0; row < height && row < KILN_TILE_HEIGHT && target->first; row++) {
+        const size_t place = 4 * ((size_t)(y + row) * target->width + x);
+        memset(target->color + place, 0, bytes);
+        if (target->bloom && !target->keep_bloom)
+            memset(target->bloom + place, 0, bytes);
+        if (target->covering)
+            memset(target->covering + place, 0, bytes);
+        if (target->added)
+            memset(target->added + place, 0, bytes);
     }
 }

@@ -104,7 +104,7 @@ void kiln_paint_grid_footprint(uint32_t edge, uint64_t splats, struct kiln_footp
     const uint64_t listed =
         splats < MOST_LISTED / BLOCKS_OF_A_SPLAT ? splats * BLOCKS_OF_A_SPLAT : MOST_LISTED;
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, blocks, of_block);
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, CELLS * CELLS * CELLS + 2,
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, (uint64_t)CELLS * CELLS * CELLS + 2,
                        sizeof *g->first);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, listed, sizeof *g->list);
 }
