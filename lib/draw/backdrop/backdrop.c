@@ -175,8 +175,6 @@ static void add_picture(const struct kiln_scene *scene, const char *path,
     if (!path || path[0] != '/' || !kiln_loader_knows_size(scene->loader, path, size))
         return;
     kiln_footprint_add(footprint, KILN_FOOTPRINT_BACKDROP, 1, kiln_pyramid_bytes(size[0], size[1]));
-    kiln_footprint_pass(footprint, KILN_FOOTPRINT_BACKDROP,
-                        kiln_asset_image_expected_bytes(path, size));
 }
 
 void kiln_backdrop_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
