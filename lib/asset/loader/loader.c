@@ -225,8 +225,11 @@ struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decod
         kiln_helper_end(&helper);
     const uint64_t most_memory =
         loader ? kiln_budget_left(loader->params.budget, KILN_LIMIT_memory) : UINT64_MAX;
-    if (!helper)
+    if (!helper) {
         helper = kiln_helper_start(kind, most_memory, kiln_loader_caller(loader), error);
+        if (helper && loader)
+            kiln_helper_count(helper, loader->params.budget);
+    }
     if (helper)
         kiln_helper_begin(helper);
     return helper;
