@@ -64,7 +64,8 @@ def free_user():
 
 def lives(number):
     try:
-        return pathlib.Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+        fields = pathlib.Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()
+        return fields[0] not in "ZX" or int(fields[17]) > 1  # threads, of which the first may have ended
     except OSError:
         return False
 
@@ -256,6 +257,7 @@ class Way:
             "loop": (lambda root: os.symlink("a", root / "a"), "done"),
             "deep": (lambda root: deepen(root, 100), "failed"),
             "deeper than paths": (lambda root: deepen(root, 2100), "failed"),
+            "long names": (lambda root: deepen(root, 60, "n" * 250), "failed"),
             "read only": (lambda root: (root / "mode").write_text("555"), "done"),
             "no rights": (lambda root: (root / "mode").write_text("0"), "done"),
         }
@@ -282,6 +284,8 @@ class Way:
         found = {name: results.get(name, {}).get("outcome") for name in wanted}
         expect(found == wanted, self.name, "files:",
                {name: results.get(name) for name in wanted if wanted[name] != found[name]})
+        longest = max(len(str(result)) for result in results.values())
+        expect(longest < 5000, self.name, "a result has", longest, "characters")
         for name, outcome in wanted.items():
             expect((self.spool / outcome / name / "result.json").exists(), self.name, name, "is not in", outcome)
         expect(self.secret.read_text() == SECRET and os.listdir("/etc"), self.name, "a file of others has changed")
@@ -312,41 +316,62 @@ class Way:
 
     def attack_disk(self):
         """Lets a job fill the disk, which is small. The next job has room again, and the report has both."""
-        if not self.is_root or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m,mode=755", "none", self.spool],
+        if not self.is_root or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m,nr_inodes=500,mode=755", "none", self.spool],
                                               stderr=subprocess.DEVNULL).returncode:
             return
         try:
             (self.spool / "incoming").mkdir()
-            for number, attack in enumerate(("fill the disk", "fill by events", "fill by messages")):
+            attacks = ("fill the disk", "fill by events", "fill by messages", "fill the cache", "many files")
+            for number, attack in enumerate(attacks):
                 self.bring(f"{number} fills", attack)
                 self.bring(f"{number} good", "good")
             self.end(self.begin())
             found = {(line["job"], line["outcome"]) for line in self.report()}
             expect({(f"{i} {name}", outcome) for name, outcome in (("fills", "failed"), ("good", "done"))
-                    for i in range(3)} <= found, self.name, "a full disk leads to", found)
+                    for i in range(len(attacks))} <= found, self.name, "a full disk leads to", found)
         finally:
             subprocess.run(["umount", self.spool], check=True)
 
-    def attack_next_worker(self):
+    def attack_next_worker(self, name, attack, processes):
         """Kills a worker. Its job tries to live on, to keep the lock, and to disturb its own second try."""
-        self.bring("next", "next worker")
+        self.bring(name, attack)
         worker = self.begin()
-        events = self.spool / "running/next/events.1.ndjson"
-        self.wait_for("the job's processes", lambda: events.exists() and events.read_text().count('"left"') == 2)
+        events = self.spool / "running" / name / "events.1.ndjson"
+        self.wait_for("the job's processes",
+                      lambda: events.exists() and events.read_text().count('"left"') == processes)
         worker.kill()
         worker.wait()
         seconds = self.end(self.begin())
-        result = self.results().get("next", {})
+        result = self.results().get(name, {})
         expect(result.get("outcome") == "done", self.name, "the job of a killed worker is", result)
         expect(seconds < PROMPT_S, self.name, "the next worker takes", round(seconds, 1), "s")
         expect(not self.left(), self.name, "processes outlive their worker:", self.left())
         print(f"{self.name}: the next worker took {seconds:.2f} s")
 
+    def attack_next_workers(self):
+        self.attack_next_worker("next", "next worker", 3)
+        self.attack_next_worker("hidden", "hidden from the next worker", 2)
+
+    def attack_stop(self):
+        """Stops a worker whose job does not end when it is told to. That is no try of the job."""
+        self.bring("stays", "stay")
+        worker = self.begin()
+        events = self.spool / "running/stays/events.1.ndjson"
+        self.wait_for("the job that stays", lambda: events.exists() and '"left"' in events.read_text())
+        worker.terminate()
+        seconds = self.end(worker)
+        expect(seconds < 2 * PROMPT_S, self.name, "the worker ends", round(seconds, 1), "s after SIGTERM")
+        expect(not self.left(), self.name, "processes outlive their worker:", self.left())
+        expect(not events.exists() and "stays" not in self.results(), self.name, "a job that stays counts as tried")
+        (self.spool / "running/stays/job/go").touch()
+        self.end(self.begin())
+        expect(self.results().get("stays", {}).get("outcome") == "done", self.name, self.results().get("stays"))
+
     def run(self):
         self.make_group()
         try:
             for attack in (self.attack_at_once, self.attack_names, self.attack_removals, self.attack_with_files,
-                           self.attack_with_places, self.attack_disk, self.attack_next_worker):
+                           self.attack_with_places, self.attack_disk, self.attack_next_workers, self.attack_stop):
                 attack()
         finally:
             for number in self.left():
@@ -367,13 +392,14 @@ def hide(root, secret, mode):
     (root / "folder").chmod(mode)
 
 
-def deepen(root, many):
-    """Makes folders in each other, with a hard link in the last."""
+def deepen(root, many, name="d"):
+    """Makes folders in each other, with a FIFO in the last."""
     here = os.open(".", os.O_PATH)
     os.chdir(root)
     for _ in range(many):
-        os.mkdir("d")
-        os.chdir("d")
+        os.mkdir(name)
+        os.chdir(name)
+    os.mkfifo("fifo")
     os.fchdir(here)
     os.close(here)
 
