@@ -226,23 +226,33 @@ class Keeper:
                 dying = error
         if self.user and not self.parent:
             kill_all_of(self.user)  # at once: /proc is too slow for a process that forks all the time
-            until(lambda: not self.kill_jobs(lambda *_: True))
+            until(lambda: not self.kill_jobs())
         then, _, session = os.pread(self.record, 100, 0).decode(errors="replace").strip().partition(" ")
         if then == self.boot and session.isdigit():
-            # The number may be that of another session by now, whose processes may gain rights.
-            until(lambda: not self.kill_jobs(lambda its_session, fixed: fixed and its_session == int(session)))
+            until(lambda: not self.kill_session(int(session)))
         if dying:
             raise dying
 
-    def kill_jobs(self, belongs):
-        """Kills those processes of the jobs' user that `belongs` accepts. Returns whether there were any."""
-        owner = self.user[0] if self.user else os.geteuid()
-        left = [number for number, _, session, user, fixed in processes()
-                if user == owner and number != os.getpid() and belongs(session, fixed)]
-        kill(left)
-        if left and self.user and not self.parent:
+    def kill_jobs(self):
+        """Kills all processes of the jobs' user, which is not the worker's. Returns whether there were any."""
+        left = [number for number, _, _, user, _ in processes() if user == self.user[0]]
+        if left:
             kill_all_of(self.user)
         return bool(left)
+
+    def kill_session(self, number):
+        """Kills the processes of a job's session. Returns whether there were any. They are one process group, which
+        the kernel kills at once: one that forks all the time may never be seen in /proc. The number may be that of
+        another session by now: of its processes, some are seen, and they may gain rights or are of another user."""
+        owner = self.user[0] if self.user else os.geteuid()
+        seen = [user == owner and fixed for _, _, session, user, fixed in processes() if session == number]
+        if seen and not any(seen):
+            return False
+        try:
+            os.killpg(number, signal.SIGKILL)
+        except (ProcessLookupError, PermissionError):
+            return False
+        return bool(seen)
 
     def start(self, command, environment, folder, told, messages):
         """Starts a job, which writes to the descriptors `told` and `messages`."""

@@ -407,10 +407,13 @@ def main():
     given.kiln = os.path.abspath(shutil.which(given.kiln) or sys.exit(f"worker: no program '{given.kiln}'"))
     spool = given.spool = given.spool.absolute()
     given.owner, given.stuck, given.most_output = (given.user or [os.geteuid()])[0], set(), most_output(given)
-    for folder, mode in {"incoming": 0o700, "running": 0o711, "done": 0o700, "failed": 0o700, "cache": 0o711}.items():
-        (spool / folder).mkdir(mode=mode, parents=True, exist_ok=True)
-    if given.user:
+    for folder in ("incoming", "running", "done", "failed", "cache"):
+        (spool / folder).mkdir(mode=0o700, parents=True, exist_ok=True)
+    if given.user:  # and nobody else may enter: a job may make programs with a set-uid bit
         os.chown(spool / "cache", *given.user)
+        os.chown(spool / "running", -1, given.user[1])
+    (spool / "running").chmod(0o710)
+    (spool / "cache").chmod(0o700)
     # No job inherits the lock, since it could keep it. The next worker ends what the job of this one leaves.
     lock = os.open(spool / "lock", os.O_RDWR | os.O_CREAT, 0o600)
     fcntl.flock(lock, fcntl.LOCK_EX)

@@ -285,8 +285,9 @@ def search(arguments, folder):
     fixed = scenes_of_files(folder) if arguments.what == "memory" else []
     while len(worst) < arguments.scenes + len(fixed) and refused < 20 * arguments.scenes + 100:
         scene = fixed[len(worst)] if len(worst) < len(fixed) else fresh(rng, arguments.particles)
-        if len(worst) > len(fixed) and rng.random() < 0.6:
-            scene = change(rng, rng.choice(worst[:8])[2], scene, arguments.particles)
+        drawn = [item for item in worst if item[2] not in fixed]
+        if drawn and rng.random() < 0.6:
+            scene = change(rng, rng.choice(drawn[:8])[2], scene, arguments.particles)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text_of(scene))
         found, message = measure(arguments, folder, path)
