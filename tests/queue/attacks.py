@@ -151,7 +151,8 @@ class Way:
                         numbers.append(json.loads(line)["process"])
                     elif line[0] == "\0":
                         break
-        living = {number for number in numbers if lives(number)}
+        # Another process may have the number of one that has ended.
+        living = {number for number in numbers if owner(pathlib.Path(f"/proc/{number}")) == self.user and lives(number)}
         for _ in range(20 if os.geteuid() == 0 else 0):  # some have another number at each moment
             living |= {int(place.name) for place in pathlib.Path("/proc").glob("[0-9]*")
                        if owner(place) == self.user and lives(place.name)}
@@ -194,7 +195,7 @@ class Way:
                    (says or "") in found.get("message", ""), self.name, attack, "is", str(found)[:300])
             expect(len(str(found)) < 5000, self.name, attack, "has a result of", len(str(found)), "characters")
             self.look_at_delivery(name, found)
-        expect(not self.left(), self.name, "processes outlive their jobs:", self.left())
+        expect(not (left := self.left()), self.name, "processes outlive their jobs:", left)
         slowest = max(results.values(), key=lambda line: line["seconds"], default={"seconds": 0})
         expect(slowest["seconds"] < 5 * PROMPT_S, self.name, "a job takes long:", slowest)
         print(f"{self.name}: {len(results)} jobs in {seconds:.1f} s")
@@ -356,7 +357,7 @@ class Way:
         result = self.results().get(name, {})
         expect(result.get("outcome") == "done", self.name, "the job of a killed worker is", result)
         expect(seconds < PROMPT_S, self.name, "the next worker takes", round(seconds, 1), "s")
-        expect(not self.left(), self.name, "processes outlive their worker:", self.left())
+        expect(not (left := self.left()), self.name, "processes outlive their worker:", left)
         print(f"{self.name}: the next worker took {seconds:.2f} s")
 
     def lives_as_group(self, group):
@@ -382,7 +383,7 @@ class Way:
         worker.terminate()
         seconds = self.end(worker)
         expect(seconds < 2 * PROMPT_S, self.name, "the worker ends", round(seconds, 1), "s after SIGTERM")
-        expect(not self.left(), self.name, "processes outlive their worker:", self.left())
+        expect(not (left := self.left()), self.name, "processes outlive their worker:", left)
         expect(not events.exists() and "stays" not in self.results(), self.name, "a job that stays counts as tried")
         (self.spool / "running/stays/job/go").touch()
         self.end(self.begin())

@@ -184,7 +184,8 @@ void kiln_backdrop_footprint(const struct kiln_scene *scene, struct kiln_footpri
     add_picture(scene, scene->backdrop.sky_image, footprint);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, sizeof(float)); /* surfaces */
     kiln_meshes_cpu_footprint(scene, footprint);
-    if (kiln_scene_view_stands(scene) && scene->frames > 1)
+    /* Surfaces are kept for the next picture: of the next frame, or of another moment of it. */
+    if (kiln_scene_view_stands(scene) && (scene->frames > 1 || kiln_scene_moment_count(scene) > 1))
         kiln_surface_cache_footprint(scene, footprint);
 }
 
