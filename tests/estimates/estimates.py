@@ -203,7 +203,7 @@ def write_picture(path, edge):
 
 
 def scenes_of_files(folder):
-    """Returns scenes whose memory is that of their files, which a draw of options does not find."""
+    """Returns scenes whose memory is that of their files, and others that a short draw of options does not find."""
     def scene(look, **more):
         system = {"emit": {"bursts": {0: 10}, "life": "5 s"}, "look": look}
         return {"kiln": 1, "output": {"size": [64, 36], "frames": 1}, "systems": {"s0": system}, **more}
@@ -217,7 +217,9 @@ def scenes_of_files(folder):
     return [scene(point, backdrop={"sky": {"image": "large.png"}}),
             scene(point, backdrop={"floor": {"image": "large.png"}}),
             scene(point, backdrop={"objects": [{"terrain": {"image": "large.png", "samples": [33, 33]}}]}),
-            scene({**billboard, "atlas": "large.png"}), scene({**billboard, "motion": "large.png"}), many]
+            scene({**billboard, "atlas": "large.png"}), scene({**billboard, "motion": "large.png"}), many,
+            scene({"shape": "sphere"}, output={"size": [2560, 1440], "frames": 1}, camera={"shutter": {"samples": 3}},
+                  backdrop={"floor": {"gloss": 0.5}})]
 
 
 def text_of(scene):
