@@ -68,12 +68,14 @@ def processes():
     for place in filter(str.isdigit, os.listdir("/proc")):
         try:
             with open(f"/proc/{place}/stat", "rb") as file:
-                state, parent, _, session = file.read().rpartition(b")")[2].split()[:4]
+                fields = file.read().rpartition(b")")[2].split()
             with open(f"/proc/{place}/status", "rb") as file:
                 status = file.read()
         except OSError:  # it has ended, or is hidden from this user
             continue
-        if state not in (b"Z", b"X"):
+        state, parent, _, session, threads = *fields[:4], fields[17]
+        # A process whose first thread has ended counts as a zombie, although its other threads run.
+        if state not in (b"Z", b"X") or int(threads) > 1:
             user = int(re.search(rb"\nUid:\t(\d+)", status)[1])
             yield int(place), int(parent), int(session), user, b"\nNoNewPrivs:\t1\n" in status
 
@@ -150,6 +152,8 @@ def end_group(group):
         end = time.monotonic() + PATIENCE_S
         while b"populated 1" in os.pread(events, 4096, 0):
             (group / "cgroup.kill").write_text("1")
+            # The kernel signals the first thread of each process, and nothing happens if that thread has ended.
+            kill(filter(None, map(int, (group / "cgroup.procs").read_text().split())))
             if b"populated 1" in os.pread(events, 4096, 0):
                 changed.poll(100)
             if time.monotonic() > end:
@@ -221,23 +225,34 @@ class Keeper:
             except TimeoutError as error:
                 dying = error
         if self.user and not self.parent:
-            until(lambda: not self.kill_jobs(lambda *_: True))
+            kill_all_of(self.user)  # at once: /proc is too slow for a process that forks all the time
+            until(lambda: not self.kill_jobs())
         then, _, session = os.pread(self.record, 100, 0).decode(errors="replace").strip().partition(" ")
         if then == self.boot and session.isdigit():
-            # The number may be that of another session by now, whose processes may gain rights.
-            until(lambda: not self.kill_jobs(lambda its_session, fixed: fixed and its_session == int(session)))
+            until(lambda: not self.kill_session(int(session)))
         if dying:
             raise dying
 
-    def kill_jobs(self, belongs):
-        """Kills those processes of the jobs' user that `belongs` accepts. Returns whether there were any."""
-        owner = self.user[0] if self.user else os.geteuid()
-        left = [number for number, _, session, user, fixed in processes()
-                if user == owner and number != os.getpid() and belongs(session, fixed)]
-        kill(left)
-        if left and self.user and not self.parent:
+    def kill_jobs(self):
+        """Kills all processes of the jobs' user, which is not the worker's. Returns whether there were any."""
+        left = [number for number, _, _, user, _ in processes() if user == self.user[0]]
+        if left:
             kill_all_of(self.user)
         return bool(left)
+
+    def kill_session(self, number):
+        """Kills the processes of a job's session. Returns whether there were any. They are one process group, which
+        the kernel kills at once: one that forks all the time may never be seen in /proc. The number may be that of
+        another session by now: of its processes, some are seen, and they may gain rights or are of another user."""
+        owner = self.user[0] if self.user else os.geteuid()
+        seen = [user == owner and fixed for _, _, session, user, fixed in processes() if session == number]
+        if seen and not any(seen):
+            return False
+        try:
+            os.killpg(number, signal.SIGKILL)
+        except (ProcessLookupError, PermissionError):
+            return False
+        return bool(seen)
 
     def start(self, command, environment, folder, told, messages):
         """Starts a job, which writes to the descriptors `told` and `messages`."""
@@ -246,6 +261,8 @@ class Keeper:
         process = fork_into(group)
         if process == 0:
             try:
+                for number in (signal.SIGTERM, signal.SIGINT):
+                    signal.signal(number, signal.SIG_DFL)  # until the program runs, the worker's handler is in force
                 os.setsid()
                 os.pwrite(self.record, f"{self.boot} {os.getpid():010}\n".encode(), 0)
                 for number, file in enumerate((self.null, told, messages)):
@@ -273,8 +290,10 @@ class Job:
         self.keeper, self.process, self.group, self.rounds = keeper, process, group, 0
         self.handle = os.pidfd_open(process)
 
-    def ends_within(self, patience_s):
-        return bool(select.select([self.handle], [], [], patience_s)[0])
+    def ends_within(self, patience_s, told_to_stop=None):
+        """Returns whether the job has ended. Returns earlier if something can be read from `told_to_stop`."""
+        files = [self.handle, *([told_to_stop] if told_to_stop is not None else [])]
+        return self.handle in select.select(files, [], [], patience_s)[0]
 
     def send(self, number):
         signal.pidfd_send_signal(self.handle, number)

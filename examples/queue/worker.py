@@ -29,6 +29,7 @@ import processes  # noqa: E402
 
 TRIES = 3  # the most tries of a job that may succeed when it is run again, or during which the worker went down
 GRACE_S = 10  # seconds from --timeout until SIGTERM, and from there until SIGKILL
+STOP_S = 5  # seconds from the SIGTERM that the worker passes on until SIGKILL
 # The most that is read and kept of what a job says.
 LINE_BYTES, EVENT_LINES, EVENT_BYTES, MESSAGE_CHARACTERS = 64 << 10, 500_000, 64 << 20, 4000
 UNITS = {"": 1, "B": 1, **{f"{prefix}B": 1000 ** i for i, prefix in enumerate("kMGT", 1)},
@@ -36,13 +37,13 @@ UNITS = {"": 1, "B": 1, **{f"{prefix}B": 1000 ** i for i, prefix in enumerate("k
 # Errors of the machine, of which the jobs that wait are not to blame.
 MACHINE = {errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM}
 JOB_ERRORS = (OSError, ValueError, LookupError, TypeError, RecursionError)  # what a job may lead the worker to
-now = types.SimpleNamespace(stopping=False, job=None)  # job: the kiln that runs
+now = types.SimpleNamespace(stopping=False, told=os.pipe())  # told: a pipe, which has something when stopping
 
 
 def stop(*_):
-    now.stopping = True
-    if now.job is not None:
-        now.job.send(signal.SIGTERM)
+    if not now.stopping:
+        now.stopping = True
+        os.write(now.told[1], b".")
 
 
 def sync(path):
@@ -94,15 +95,15 @@ def run(command, place, told, messages, given):
     nothing that it started is left."""
     environment = {"PATH": os.defpath, "HOME": place / "tmp", "TMPDIR": place / "tmp",
                    "XDG_CACHE_HOME": given.spool / "cache"}
-    job = now.job = given.keeper.start(command, environment, place, told, messages)
+    job = given.keeper.start(command, environment, place, told, messages)
     try:
-        if now.stopping:
-            job.send(signal.SIGTERM)
-        if not job.ends_within(given.timeout + GRACE_S):
-            job.signal_all(signal.SIGTERM)
-            job.ends_within(GRACE_S)
+        if not job.ends_within(given.timeout + GRACE_S, now.told[0]):
+            if now.stopping:
+                job.send(signal.SIGTERM)
+            else:
+                job.signal_all(signal.SIGTERM)
+            job.ends_within(STOP_S if now.stopping else GRACE_S)
     finally:
-        now.job = None
         code = job.end()
     return code
 
@@ -138,15 +139,26 @@ def cut(place, most_bytes):
 
 
 def is_full(spool):
-    """Returns whether the disk is nearly full. Then jobs keep no more than the worker needs."""
+    """Returns whether the disk has nearly no room, or no numbers for files. Then jobs keep no more than the worker
+    needs."""
     status = os.statvfs(spool)
-    return status.f_bavail < status.f_blocks / 20
+    return status.f_bavail < status.f_blocks / 20 or status.f_favail < status.f_files / 20
 
 
-def make_room(place):
+def make_room(place, spool):
     """Removes what a job has drawn so far, and most of what it has said: perhaps it has filled the disk."""
     foreign.remove(place, ("output", "tmp", "clip.tmp", "clip.mp4"))
     cut(place, LINE_BYTES)
+    empty_full_cache(spool)
+
+
+def empty_full_cache(spool):
+    """Empties the cache if the disk is nearly full: a job that was taken over may have filled it there."""
+    try:
+        if is_full(spool):
+            foreign.remove(spool / "cache", os.listdir(spool / "cache"))
+    except OSError as error:  # jobs can do without a cache
+        print(f"worker: the cache was not emptied: {error}", file=sys.stderr)
 
 
 def what_kiln_told(place, events):
@@ -164,11 +176,11 @@ def what_kiln_told(place, events):
         except (ValueError, LookupError, TypeError, RecursionError):  # half a line (a full disk), or no event
             continue
     said = next(lines_of(place / "messages"), "")[:1000].strip()
-    return (message or said or "kiln does not say why")[:MESSAGE_CHARACTERS], again, started
+    return message or said or "kiln does not say why", again, started
 
 
 def failed(code, message):
-    return {"outcome": "failed", "code": code, "message": message}
+    return {"outcome": "failed", "code": code, "message": message[:MESSAGE_CHARACTERS]}
 
 
 def render(place, given):
@@ -193,7 +205,7 @@ def render(place, given):
         return None
     if code < 128 and not started and not kiln_starts(place, given):
         events.unlink()
-        return None if now.stopping else sys.exit(f"worker: kiln does not start: {message}")
+        return None if now.stopping else sys.exit(f"worker: kiln does not start: {message!a}")
     return {**failed(code, message), "outcome": "again" if again and tries < TRIES else "failed"}
 
 
@@ -214,7 +226,7 @@ def settle(place, spool):
     try:
         foreign.remove(place, ("output", "tmp", "clip.tmp", "job" if outcome == "done" else "clip.mp4"))
     except OSError as error:  # what is left moves along
-        print(f"worker: {place.name}: not all was removed: {error}", file=sys.stderr)
+        print(f"worker: {place.name!a}: not all was removed: {error}", file=sys.stderr)
     place.rename(free_name(spool / outcome, place.name))
 
 
@@ -271,12 +283,13 @@ def work_on(name, given):
     place = given.spool / "running" / name
     start = time.monotonic()
     try:
+        empty_full_cache(given.spool)
         place.mkdir(exist_ok=True)
         if not os.path.lexists(place / "job") and not take(name, place, given.spool):
             return
         result = render(place, given)
         if result and result["outcome"] != "done" and is_full(given.spool):
-            make_room(place)
+            make_room(place, given.spool)
     except JOB_ERRORS as error:
         result = give_up(name, error, given)
     if result:
@@ -285,7 +298,7 @@ def work_on(name, given):
         except OSError as error:
             if error.errno not in MACHINE:
                 raise
-            make_room(place)
+            make_room(place, given.spool)
             if result["outcome"] == "done":
                 result = failed(0, f"kiln ended well, and yet: {error}")
             record(name, result, start, given.spool)
@@ -313,7 +326,7 @@ def recover(given):
     for name in names_in(given.spool / "running"):
         try:
             if is_full(given.spool) and (given.spool / "running" / name).is_dir():
-                make_room(given.spool / "running" / name)
+                make_room(given.spool / "running" / name, given.spool)
             recover_job(given.spool / "running" / name, lines, given)
         except JOB_ERRORS as error:
             record(name, give_up(name, error, given), time.monotonic(), given.spool)
@@ -394,10 +407,13 @@ def main():
     given.kiln = os.path.abspath(shutil.which(given.kiln) or sys.exit(f"worker: no program '{given.kiln}'"))
     spool = given.spool = given.spool.absolute()
     given.owner, given.stuck, given.most_output = (given.user or [os.geteuid()])[0], set(), most_output(given)
-    for folder, mode in {"incoming": 0o700, "running": 0o711, "done": 0o700, "failed": 0o700, "cache": 0o711}.items():
-        (spool / folder).mkdir(mode=mode, parents=True, exist_ok=True)
-    if given.user:
+    for folder in ("incoming", "running", "done", "failed", "cache"):
+        (spool / folder).mkdir(mode=0o700, parents=True, exist_ok=True)
+    if given.user:  # and nobody else may enter: a job may make programs with a set-uid bit
         os.chown(spool / "cache", *given.user)
+        os.chown(spool / "running", -1, given.user[1])
+    (spool / "running").chmod(0o710)
+    (spool / "cache").chmod(0o700)
     # No job inherits the lock, since it could keep it. The next worker ends what the job of this one leaves.
     lock = os.open(spool / "lock", os.O_RDWR | os.O_CREAT, 0o600)
     fcntl.flock(lock, fcntl.LOCK_EX)

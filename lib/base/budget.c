@@ -33,6 +33,7 @@ struct kiln_budget {
     /* Sums of the counted amounts. The entry of `memory` is the peak; those of `time` and `cpu` are
      * not used. */
     _Atomic uint64_t taken[KILN_LIMIT_COUNT];
+    _Atomic int64_t running_us; /* processor time of processes that run */
 };
 
 /* Returns the most bytes of this process that were ever in memory, as the system counts them. The
@@ -135,6 +136,12 @@ uint64_t kiln_budget_left(struct kiln_budget *budget, enum kiln_limit limit)
     return taken < most ? most - taken : 0;
 }
 
+void kiln_budget_add_running(struct kiln_budget *budget, int64_t microseconds)
+{
+    if (budget)
+        atomic_fetch_add(&budget->running_us, microseconds);
+}
+
 void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit)
 {
     if (budget)
@@ -183,7 +190,8 @@ bool kiln_budget_is_kept(struct kiln_budget *budget, struct kiln_error *error)
         return true;
     const uint64_t *most = budget->limits.most;
     const uint64_t time = milliseconds(kiln_clock_seconds() - budget->started_s);
-    const uint64_t cpu = milliseconds(kiln_clock_cpu_seconds() - budget->started_cpu_s);
+    const double running_s = 1e-6 * (double)atomic_load(&budget->running_us);
+    const uint64_t cpu = milliseconds(kiln_clock_cpu_seconds() + running_s - budget->started_cpu_s);
     if (kiln_budget_allows(budget, KILN_LIMIT_time, time, text) &&
         kiln_budget_allows(budget, KILN_LIMIT_cpu, cpu, text) &&
         (most[KILN_LIMIT_memory] == 0 ||

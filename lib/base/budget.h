@@ -10,6 +10,12 @@
 bool kiln_budget_take(struct kiln_budget *budget, enum kiln_limit limit, uint64_t amount,
                       const char *what, struct kiln_error *error);
 
+/* Adds to the processor time of processes that the job has started and that run, in microseconds;
+ * less than 0 takes away. The system tells the time of such a process only when it has ended, so
+ * whoever waits for one adds its time from now and then, and takes all of it away when it ends.
+ * Does nothing for NULL. */
+void kiln_budget_add_running(struct kiln_budget *budget, int64_t microseconds);
+
 /* Returns what is left of a limit; UINT64_MAX where there is none. */
 uint64_t kiln_budget_left(struct kiln_budget *budget, enum kiln_limit limit);
 

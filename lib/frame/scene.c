@@ -1,5 +1,6 @@
 /* Loads scenes, and estimates the memory that they take: it asks each room that allocates much for
  * the frame loop. */
+#include "asset/loader/loader.h"
 #include "frame/stages.h"
 #include "kiln.h"
 #include "scene/instant.h"
@@ -12,6 +13,10 @@
 static void estimate(const struct kiln_scene *scene, struct kiln_footprint *footprint)
 {
     const struct kiln_pool_layout layout = kiln_scene_pool_layout(scene);
+    /* Pictures of sky, floor, motion and heights are decoded whole, one at a time. The scene has
+     * decoded each of them once when it was read. */
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_BACKDROP,
+                        kiln_loader_largest_picture(scene->loader));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1,
                        kiln_mesh_library_bytes(scene->meshes));
     kiln_pool_footprint(&layout, footprint);

@@ -152,13 +152,16 @@ static bool measure(struct planning *p, struct kiln_error *error)
 /* ---- estimates ------------------------------------------------------------------------------- */
 
 /* Returns the time of a frame: between those that were measured, or in proportion to the only one.
- */
+ * Frames with less work than the lightest one are in proportion to that one, too: a line through
+ * both would give them less than no time. */
 static double frame_seconds(const struct planning *p, uint32_t frame)
 {
     const double work = kiln_workload_frame(p->workload, frame);
     const struct sample *light = &p->frames[0], *heavy = &p->frames[p->frame_count - 1];
     if (heavy->work <= light->work)
         return heavy->cpu_s * work / heavy->work;
+    if (work < light->work)
+        return light->cpu_s * work / light->work;
     const double part = (work - light->work) / (heavy->work - light->work);
     return light->cpu_s + part * (heavy->cpu_s - light->cpu_s);
 }

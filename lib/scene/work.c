@@ -13,6 +13,9 @@
 /* What the program takes without a scene: its code, libraries and small things. */
 enum { PROGRAM_BYTES = 38 << 20 };
 
+/* What reading a node of the scene's text takes, most of it in libfyaml. The allocator keeps it. */
+enum { NODE_BYTES = 500 };
+
 /* ---- counts ---------------------------------------------------------------------------------- */
 
 uint64_t kiln_work_steps(const struct kiln_scene *scene)
@@ -112,11 +115,20 @@ static const char *key_of(enum kiln_footprint_part part)
     return keys[part];
 }
 
+static uint64_t count_nodes(const struct kiln_node *node)
+{
+    uint64_t count = node->key ? 2 : 1;
+    for (const struct kiln_node *child = node->first; child; child = child->next)
+        count += count_nodes(child);
+    return count;
+}
+
 bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root,
                      kiln_scene_estimate *estimate)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
     struct kiln_footprint footprint = {.threads = kiln_threads_available()};
+    kiln_footprint_add(&footprint, KILN_FOOTPRINT_PARTICLES, count_nodes(root), NODE_BYTES);
     if (estimate)
         estimate(scene, &footprint);
     scene->memory_bytes = PROGRAM_BYTES + kiln_footprint_total(&footprint);

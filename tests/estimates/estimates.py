@@ -16,9 +16,11 @@ import random
 import re
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 MOST = {"memory": 1.3, "time": 3.0}  # times the estimate
 
@@ -191,6 +193,35 @@ def change(rng, scene, fresh, most):
     return other
 
 
+def write_picture(path, edge):
+    """Writes a grey PNG."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", edge, edge, 8, 0, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(bytes(edge * (edge + 1)), 1)) + chunk(b"IEND", b""))
+
+
+def scenes_of_files(folder):
+    """Returns scenes whose memory is that of their files, and others that a short draw of options does not find."""
+    def scene(look, **more):
+        system = {"emit": {"bursts": {0: 10}, "life": "5 s"}, "look": look}
+        return {"kiln": 1, "output": {"size": [64, 36], "frames": 1}, "systems": {"s0": system}, **more}
+    write_picture(os.path.join(folder, "large.png"), 4096)
+    write_picture(os.path.join(folder, "small.png"), 64)
+    point = {"shape": "point"}
+    billboard = {"shape": "billboard", "atlas": "small.png", "cells": [8, 8]}
+    keys = {"keys": {f"{i} s": 0.01 for i in range(1000)}}
+    many = scene(point)
+    many["systems"] = {f"s{i}": {**many["systems"]["s0"], "look": {**point, "size": keys}} for i in range(64)}
+    return [scene(point, backdrop={"sky": {"image": "large.png"}}),
+            scene(point, backdrop={"floor": {"image": "large.png"}}),
+            scene(point, backdrop={"objects": [{"terrain": {"image": "large.png", "samples": [33, 33]}}]}),
+            scene({**billboard, "atlas": "large.png"}), scene({**billboard, "motion": "large.png"}), many,
+            scene({"shape": "sphere"}, output={"size": [2560, 1440], "frames": 1}, camera={"shutter": {"samples": 3}},
+                  backdrop={"floor": {"gloss": 0.5}})]
+
+
 def text_of(scene):
     """Returns a scene as YAML: JSON whose keys are numbers where they look like numbers."""
     return re.sub(r'"(-?[0-9.]+)":', r"\1:", json.dumps(scene))
@@ -253,10 +284,12 @@ def search(arguments, folder):
     measure = measure_memory if arguments.what == "memory" else measure_time
     path = os.path.join(folder, "scene.yaml")
     worst, refused = [], 0
-    while len(worst) < arguments.scenes and refused < 20 * arguments.scenes + 100:
-        scene = fresh(rng, arguments.particles)
-        if worst and rng.random() < 0.6:
-            scene = change(rng, rng.choice(worst[:8])[2], scene, arguments.particles)
+    fixed = scenes_of_files(folder) if arguments.what == "memory" else []
+    while len(worst) < arguments.scenes + len(fixed) and refused < 20 * arguments.scenes + 100:
+        scene = fixed[len(worst)] if len(worst) < len(fixed) else fresh(rng, arguments.particles)
+        drawn = [item for item in worst if item[2] not in fixed]
+        if drawn and rng.random() < 0.6:
+            scene = change(rng, rng.choice(drawn[:8])[2], scene, arguments.particles)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text_of(scene))
         found, message = measure(arguments, folder, path)

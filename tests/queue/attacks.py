@@ -64,7 +64,8 @@ def free_user():
 
 def lives(number):
     try:
-        return pathlib.Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+        fields = pathlib.Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()
+        return fields[0] not in "ZX" or int(fields[17]) > 1  # threads, of which the first may have ended
     except OSError:
         return False
 
@@ -150,7 +151,8 @@ class Way:
                         numbers.append(json.loads(line)["process"])
                     elif line[0] == "\0":
                         break
-        living = {number for number in numbers if lives(number)}
+        # Another process may have the number of one that has ended.
+        living = {number for number in numbers if owner(pathlib.Path(f"/proc/{number}")) == self.user and lives(number)}
         for _ in range(20 if os.geteuid() == 0 else 0):  # some have another number at each moment
             living |= {int(place.name) for place in pathlib.Path("/proc").glob("[0-9]*")
                        if owner(place) == self.user and lives(place.name)}
@@ -193,7 +195,7 @@ class Way:
                    (says or "") in found.get("message", ""), self.name, attack, "is", str(found)[:300])
             expect(len(str(found)) < 5000, self.name, attack, "has a result of", len(str(found)), "characters")
             self.look_at_delivery(name, found)
-        expect(not self.left(), self.name, "processes outlive their jobs:", self.left())
+        expect(not (left := self.left()), self.name, "processes outlive their jobs:", left)
         slowest = max(results.values(), key=lambda line: line["seconds"], default={"seconds": 0})
         expect(slowest["seconds"] < 5 * PROMPT_S, self.name, "a job takes long:", slowest)
         print(f"{self.name}: {len(results)} jobs in {seconds:.1f} s")
@@ -227,6 +229,13 @@ class Way:
         expect(not os.listdir(self.spool / "incoming") and not os.listdir(self.spool / "running"), self.name,
                "names are left")
 
+    def look_from_outside(self, output):
+        """Looks at a job that runs as somebody else would: it may have made a program with a set-uid bit for him."""
+        if os.geteuid() == 0:
+            found = subprocess.run(["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "ls", output,
+                                    self.spool / "cache"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            expect(not found.stdout, self.name, "others see the files of a job")
+
     def attack_removals(self):
         """Removes a job that waits, and one that runs."""
         for name, attack in (("a waits", "wait for go"), ("b removed", "good"), ("c removed", "wait for removal"),
@@ -235,6 +244,7 @@ class Way:
         worker = self.begin()
         running = self.spool / "running"
         self.wait_for("a job that waits", (running / "a waits/output").exists)
+        self.look_from_outside(running / "a waits/output")
         shutil.rmtree(self.spool / "incoming/b removed")
         (running / "a waits/job/go").touch()
         self.wait_for("a job to remove", lambda: (running / "c removed/messages").exists())
@@ -256,6 +266,7 @@ class Way:
             "loop": (lambda root: os.symlink("a", root / "a"), "done"),
             "deep": (lambda root: deepen(root, 100), "failed"),
             "deeper than paths": (lambda root: deepen(root, 2100), "failed"),
+            "long names": (lambda root: deepen(root, 60, "n" * 250), "failed"),
             "read only": (lambda root: (root / "mode").write_text("555"), "done"),
             "no rights": (lambda root: (root / "mode").write_text("0"), "done"),
         }
@@ -282,6 +293,8 @@ class Way:
         found = {name: results.get(name, {}).get("outcome") for name in wanted}
         expect(found == wanted, self.name, "files:",
                {name: results.get(name) for name in wanted if wanted[name] != found[name]})
+        longest = max(len(str(result)) for result in results.values())
+        expect(longest < 5000, self.name, "a result has", longest, "characters")
         for name, outcome in wanted.items():
             expect((self.spool / outcome / name / "result.json").exists(), self.name, name, "is not in", outcome)
         expect(self.secret.read_text() == SECRET and os.listdir("/etc"), self.name, "a file of others has changed")
@@ -312,41 +325,75 @@ class Way:
 
     def attack_disk(self):
         """Lets a job fill the disk, which is small. The next job has room again, and the report has both."""
-        if not self.is_root or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m,mode=755", "none", self.spool],
+        options = "size=4m,nr_inodes=500,mode=755"
+        if not self.is_root or subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", self.spool],
                                               stderr=subprocess.DEVNULL).returncode:
             return
         try:
             (self.spool / "incoming").mkdir()
-            for number, attack in enumerate(("fill the disk", "fill by events", "fill by messages")):
+            attacks = ("fill the disk", "fill by events", "fill by messages", "fill the cache", "many files")
+            for number, attack in enumerate(attacks):
                 self.bring(f"{number} fills", attack)
                 self.bring(f"{number} good", "good")
             self.end(self.begin())
             found = {(line["job"], line["outcome"]) for line in self.report()}
             expect({(f"{i} {name}", outcome) for name, outcome in (("fills", "failed"), ("good", "done"))
-                    for i in range(3)} <= found, self.name, "a full disk leads to", found)
+                    for i in range(len(attacks))} <= found, self.name, "a full disk leads to", found)
         finally:
             subprocess.run(["umount", self.spool], check=True)
 
-    def attack_next_worker(self):
+    def attack_next_worker(self, name, attack, processes):
         """Kills a worker. Its job tries to live on, to keep the lock, and to disturb its own second try."""
-        self.bring("next", "next worker")
+        self.bring(name, attack)
         worker = self.begin()
-        events = self.spool / "running/next/events.1.ndjson"
-        self.wait_for("the job's processes", lambda: events.exists() and events.read_text().count('"left"') == 2)
+        events = self.spool / "running" / name / "events.1.ndjson"
+        self.wait_for("the job's processes",
+                      lambda: events.exists() and events.read_text().count('"left"') == processes)
         worker.kill()
         worker.wait()
+        group = int((self.spool / "session").read_text().split()[1])
         seconds = self.end(self.begin())
-        result = self.results().get("next", {})
+        expect(not self.lives_as_group(group), self.name, "the group of the job outlives its worker")
+        result = self.results().get(name, {})
         expect(result.get("outcome") == "done", self.name, "the job of a killed worker is", result)
         expect(seconds < PROMPT_S, self.name, "the next worker takes", round(seconds, 1), "s")
-        expect(not self.left(), self.name, "processes outlive their worker:", self.left())
+        expect(not (left := self.left()), self.name, "processes outlive their worker:", left)
         print(f"{self.name}: the next worker took {seconds:.2f} s")
+
+    def lives_as_group(self, group):
+        """Returns whether a process group has a process: one that always forks is seldom seen in /proc."""
+        for _ in range(50):
+            try:
+                os.killpg(group, 0)
+            except ProcessLookupError:
+                return False
+            time.sleep(0.02)  # init may have to collect what has ended
+        return True
+
+    def attack_next_workers(self):
+        self.attack_next_worker("next", "next worker", 3)
+        self.attack_next_worker("hidden", "hidden from the next worker", 2)
+
+    def attack_stop(self):
+        """Stops a worker whose job does not end when it is told to. That is no try of the job."""
+        self.bring("stays", "stay")
+        worker = self.begin()
+        events = self.spool / "running/stays/events.1.ndjson"
+        self.wait_for("the job that stays", lambda: events.exists() and '"left"' in events.read_text())
+        worker.terminate()
+        seconds = self.end(worker)
+        expect(seconds < 2 * PROMPT_S, self.name, "the worker ends", round(seconds, 1), "s after SIGTERM")
+        expect(not (left := self.left()), self.name, "processes outlive their worker:", left)
+        expect(not events.exists() and "stays" not in self.results(), self.name, "a job that stays counts as tried")
+        (self.spool / "running/stays/job/go").touch()
+        self.end(self.begin())
+        expect(self.results().get("stays", {}).get("outcome") == "done", self.name, self.results().get("stays"))
 
     def run(self):
         self.make_group()
         try:
             for attack in (self.attack_at_once, self.attack_names, self.attack_removals, self.attack_with_files,
-                           self.attack_with_places, self.attack_disk, self.attack_next_worker):
+                           self.attack_with_places, self.attack_disk, self.attack_next_workers, self.attack_stop):
                 attack()
         finally:
             for number in self.left():
@@ -367,13 +414,14 @@ def hide(root, secret, mode):
     (root / "folder").chmod(mode)
 
 
-def deepen(root, many):
-    """Makes folders in each other, with a hard link in the last."""
+def deepen(root, many, name="d"):
+    """Makes folders in each other, with a FIFO in the last."""
     here = os.open(".", os.O_PATH)
     os.chdir(root)
     for _ in range(many):
-        os.mkdir("d")
-        os.chdir("d")
+        os.mkdir(name)
+        os.chdir(name)
+    os.mkfifo("fifo")
     os.fchdir(here)
     os.close(here)
 

@@ -4,6 +4,7 @@
  * file job/attack names. Its second line is the path of a file that belongs to somebody else. */
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -127,11 +128,31 @@ static int swap_always(void)
     return is_there(CLIP) ? 0 : write_clip();
 }
 
+static void *rest_in_thread(void *unused)
+{
+    rest(LIFE_S * 1000L);
+    return unused;
+}
+
+/* Leaves a process whose first thread ends, so that /proc calls it a zombie, while another goes on.
+ */
+static void leave_headless(unsigned long flags)
+{
+    pthread_t thread;
+    if (!leave(flags))
+        return;
+    if (pthread_create(&thread, NULL, rest_in_thread, NULL) == 0)
+        syscall(SYS_exit, 0);
+    _exit(9);
+}
+
 /* Leaves a child, an orphan, and a process that is a child of the worker. */
 static int outlive(void)
 {
     if (leave(0) || leave(CLONE_PARENT))
         _exit((rest(LIFE_S * 1000L), 0));
+    leave_headless(0);
+    leave_headless(CLONE_PARENT);
     if (fork() == 0) {
         if (leave(0))
             _exit((rest(LIFE_S * 1000L), 0));
@@ -163,8 +184,38 @@ static int wait_for_the_next_worker(void)
 {
     if (is_there("events.2.ndjson"))
         return write_clip();
-    if (!leave(0) && !leave(CLONE_PARENT))
+    if (!leave(0) && !leave(CLONE_PARENT)) {
+        leave_headless(0);
         tell("waits", getpid());
+    }
+    rest(LIFE_S * 1000L);
+    return 1;
+}
+
+/* Leaves only processes that a next worker finds hard to see: one that /proc calls a zombie, and a
+ * chain of processes that live for less time than it takes to list them. */
+static int hide_from_the_next_worker(void)
+{
+    if (is_there("events.2.ndjson"))
+        return write_clip();
+    leave_headless(0);
+    if (leave(0)) {
+        for (const time_t end = time(NULL) + LIFE_S; time(NULL) < end;) {
+            if (fork() > 0)
+                _exit(0);
+        }
+        _exit(0);
+    }
+    rest(LIFE_S * 1000L);
+    return 1;
+}
+
+/* Does not end when it is told to. */
+static int stay(void)
+{
+    if (is_there("events.1.ndjson") && is_there("job/go"))
+        return write_clip();
+    hide();
     rest(LIFE_S * 1000L);
     return 1;
 }
@@ -255,6 +306,26 @@ static int fill_the_disk(void)
     return fill_by(open("output/fill", O_WRONLY | O_CREAT | O_APPEND, 0600));
 }
 
+/* Fills the disk in the cache, which stays when the job has ended. */
+static int fill_the_cache(void)
+{
+    char path[4096];
+    const char *cache = getenv("XDG_CACHE_HOME");
+    const int length = snprintf(path, sizeof path, "%s/kiln/fill", cache ? cache : "");
+    return length < (int)sizeof path ? fill_by(open(path, O_WRONLY | O_CREAT | O_APPEND, 0600)) : 2;
+}
+
+/* Takes all numbers of files that the disk has. */
+static int make_many_files(void)
+{
+    char path[64];
+    for (int i = 0;; i++) {
+        snprintf(path, sizeof path, "output/file%d", i);
+        if (mkdir(path, 0700) != 0)
+            return 1;
+    }
+}
+
 static int fill_by_events(void)
 {
     return fill_by(STDOUT_FILENO);
@@ -332,6 +403,8 @@ static const struct attack {
     {"outlive", outlive},
     {"chains", chains},
     {"next worker", wait_for_the_next_worker},
+    {"hidden from the next worker", hide_from_the_next_worker},
+    {"stay", stay},
     {"link", link_to_secret},
     {"loop", link_to_itself},
     {"second name", second_name},
@@ -344,6 +417,8 @@ static const struct attack {
     {"hidden files", hide_files},
     {"deep", go_deep},
     {"fill the disk", fill_the_disk},
+    {"fill the cache", fill_the_cache},
+    {"many files", make_many_files},
     {"fill by events", fill_by_events},
     {"fill by messages", fill_by_messages},
     {"many events", many_events},

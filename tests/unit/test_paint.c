@@ -289,6 +289,47 @@ static void gathers_agree(void **state)
     kiln_chart_destroy(&chart);
 }
 
+/* Splats that reach every block have more entries than the lists may have, so they are painted in
+ * parts. If this fails, a scene takes hundreds of MiB for each painted mesh, which nobody expects,
+ * or the parts are other paint. */
+static void many_large_splats_agree(void **state)
+{
+    (void)state;
+    enum { MANY = 40000, MOST_ENTRIES = 1 << 21 };
+    static float texels[2][EDGE * EDGE][4];
+    struct kiln_error error = {0};
+    begin_body();
+    add_ball(16);
+    make_splats();
+    struct kiln_chart *chart = chart_body(EDGE);
+    struct kiln_splat *many = calloc(MANY, sizeof *many);
+    assert_non_null(many);
+    for (uint32_t i = 0; i < MANY; i++) {
+        many[i] = splats[i % SPLATS];
+        many[i].radius_squared = 16.0f + (float)i / MANY;
+        many[i].slope = 0.05f;
+    }
+    assert_true(MANY * (uint64_t)chart->block_count > MOST_ENTRIES);
+    for (int near = 0; near < 2; near++) {
+        struct kiln_paint_grid grid;
+        assert_true(kiln_paint_grid_init(&grid, chart, &error));
+        struct kiln_threads *workers = kiln_threads_create(2);
+        const struct kiln_paint_gather all = {
+            .threads = workers,
+            .block = KILN_SIMD_PICK(kiln_paint_block_of, kiln_simd_narrowest()),
+            .chart = chart,
+            .grid = near ? &grid : NULL};
+        bool changed = false;
+        assert_true(kiln_paint_gather(&all, many, MANY, texels[near], &changed, &error));
+        assert_true(changed && grid.list_capacity <= MOST_ENTRIES);
+        kiln_threads_destroy(&workers);
+        kiln_paint_grid_finish(&grid);
+    }
+    assert_memory_equal(texels[0], texels[1], sizeof texels[0]);
+    free(many);
+    kiln_chart_destroy(&chart);
+}
+
 /* ---- runs ------------------------------------------------------------------------------------ */
 
 #define STILL                                                                                      \
@@ -522,11 +563,17 @@ static void bad_scenes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quad_is_linear),         cmocka_unit_test(quad_has_border),
-        cmocka_unit_test(ball_is_round),          cmocka_unit_test(bad_places_are_refused),
-        cmocka_unit_test(gathers_agree),          cmocka_unit_test(turns_add_up),
-        cmocka_unit_test(splats_have_one_turn),   cmocka_unit_test(marks_are_where_drops_hit),
-        cmocka_unit_test(paint_is_state),         cmocka_unit_test(needles_without_end_are_refused),
+        cmocka_unit_test(quad_is_linear),
+        cmocka_unit_test(quad_has_border),
+        cmocka_unit_test(ball_is_round),
+        cmocka_unit_test(bad_places_are_refused),
+        cmocka_unit_test(gathers_agree),
+        cmocka_unit_test(many_large_splats_agree),
+        cmocka_unit_test(turns_add_up),
+        cmocka_unit_test(splats_have_one_turn),
+        cmocka_unit_test(marks_are_where_drops_hit),
+        cmocka_unit_test(paint_is_state),
+        cmocka_unit_test(needles_without_end_are_refused),
         cmocka_unit_test(bad_scenes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

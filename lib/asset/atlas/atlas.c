@@ -449,14 +449,13 @@ static bool make_flipbooks(struct kiln_atlas *atlas, struct flipbooks *all,
     return ok;
 }
 
-/* Adds what making a flipbook from files takes: its cells in floats, and a picture. */
+/* Adds what making a flipbook from files takes: its cells in floats, and at most the
+ * largest picture of the scene. */
 static void add_making(const struct flipbook *book, struct kiln_footprint *footprint)
 {
-    uint32_t size[2];
-    uint64_t bytes = book->range->cells * CELL_FLOATS * sizeof(float);
-    if (kiln_loader_knows_size(book->source.loader, book->source.path, size))
-        bytes += kiln_asset_image_expected_bytes(book->source.path, size);
-    kiln_footprint_pass(footprint, KILN_FOOTPRINT_TEXTURES, bytes);
+    const uint64_t cells = book->range->cells * CELL_FLOATS * sizeof(float);
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_TEXTURES,
+                        cells + kiln_loader_largest_picture(book->source.loader));
 }
 
 uint64_t kiln_atlas_footprint(const struct kiln_atlas_request *requests, uint32_t count,

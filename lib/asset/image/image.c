@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 #include "asset/image/animated.h"
@@ -199,6 +198,8 @@ static struct kiln_asset_image *load(struct kiln_loader *loader, const char *pat
         return NULL;
     struct kiln_asset_image *image = decode(loader, file, path, what, error);
     close(file);
+    if (image)
+        kiln_loader_add_picture(loader, kiln_asset_image_bytes(image));
     uint32_t known[2];
     /* Data are not turned, so their width may be the height that is known of the picture. */
     if (image && !what->raw && what->page == 0 && kiln_loader_knows_size(loader, path, known) &&
@@ -301,16 +302,4 @@ bool kiln_asset_sheet_size(struct kiln_loader *loader, const char *path, uint32_
                            struct kiln_error *error)
 {
     return find_size(loader, path, &(struct wanted){.sheet = true}, size, error);
-}
-
-uint64_t kiln_asset_image_expected_bytes(const char *path, const uint32_t size[2])
-{
-    static const char *const floats[] = {".exr", ".hdr", ".tif", ".tiff"};
-    const char *suffix = strrchr(path, '.');
-    uint64_t channel = sizeof(uint16_t);
-    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++) {
-        if (suffix && strcasecmp(suffix, floats[i]) == 0)
-            channel = sizeof(float);
-    }
-    return (uint64_t)size[0] * size[1] * 4 * channel;
 }

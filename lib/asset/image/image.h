@@ -40,10 +40,6 @@ struct kiln_asset_image {
     void *pixels;
 };
 
-/* Returns the most bytes that a picture of this size may take when it is decoded. The name of the
- * file tells whether its pixels may be floats. */
-uint64_t kiln_asset_image_expected_bytes(const char *path, const uint32_t size[2]);
-
 /* Returns the bytes of all pixels, of which each has four values. */
 static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image)
 {

@@ -20,6 +20,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "kiln_program.h"
@@ -37,7 +38,9 @@ struct kiln_helper {
     /* When the present request began: the processor time that the process had taken, and the real
      * time. A process that sleeps takes no processor time, so both are limited. */
     double cpu_s, began_s;
-    double most_s; /* the limit of real time */
+    double most_s;              /* the limit of real time */
+    struct kiln_budget *budget; /* counts the process's processor time; may be NULL */
+    int64_t counted_us;         /* what the budget has counted */
     bool is_broken;
 };
 
@@ -182,6 +185,18 @@ static double cpu_seconds(const struct kiln_helper *helper)
     return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
+/* Tells the budget what the process has taken so far, which it returns. */
+static double count_seconds(struct kiln_helper *helper)
+{
+    const double used_s = cpu_seconds(helper);
+    const int64_t used_us = (int64_t)(1e6 * used_s);
+    if (helper->budget && used_us > helper->counted_us) {
+        kiln_budget_add_running(helper->budget, used_us - helper->counted_us);
+        helper->counted_us = used_us;
+    }
+    return used_s;
+}
+
 /* Opens a pair of sockets, neither of which gets the number of a standard descriptor. */
 static bool open_pair(int pair[2])
 {
@@ -285,6 +300,7 @@ static int end(struct kiln_helper *helper)
     int status = 0;
     if (helper->process <= 0)
         return 0;
+    kiln_budget_add_running(helper->budget, -helper->counted_us); /* the system counts it now */
     kill_process(helper);
     pid_t ended;
     do {
@@ -327,8 +343,13 @@ bool kiln_helper_is_waiting(const struct kiln_helper *helper)
 
 void kiln_helper_begin(struct kiln_helper *helper)
 {
-    helper->cpu_s = cpu_seconds(helper);
+    helper->cpu_s = count_seconds(helper);
     helper->began_s = kiln_clock_seconds();
+}
+
+void kiln_helper_count(struct kiln_helper *helper, struct kiln_budget *budget)
+{
+    helper->budget = budget;
 }
 
 void kiln_helper_limit_time(struct kiln_helper *helper, double most_s)
@@ -393,11 +414,12 @@ static bool fail_time(struct kiln_helper *helper, double seconds, const char *of
 static bool may_wait(struct kiln_helper *helper, const struct kiln_caller *caller,
                      struct kiln_error *error)
 {
+    const double cpu_s = count_seconds(helper);
     if (!kiln_may_go_on(caller, error)) {
         helper->is_broken = true;
         return false;
     }
-    if (cpu_seconds(helper) - helper->cpu_s > KILN_DECODE_SECONDS)
+    if (cpu_s - helper->cpu_s > KILN_DECODE_SECONDS)
         return fail_time(helper, KILN_DECODE_SECONDS, " of processor time", error);
     return kiln_clock_seconds() - helper->began_s <= helper->most_s ||
            fail_time(helper, helper->most_s, "", error);

@@ -16,6 +16,9 @@ struct kiln_helper;
 struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_memory,
                                       const struct kiln_caller *caller, struct kiln_error *error);
 
+/* Lets a budget, which must outlive the process, count its processor time while it runs. */
+void kiln_helper_count(struct kiln_helper *helper, struct kiln_budget *budget);
+
 /* Kills the process and waits until it has ended. */
 void kiln_helper_end(struct kiln_helper **helper);
 

@@ -32,6 +32,7 @@ struct kiln_loader {
     pthread_mutex_t mutex; /* guards the members below */
     struct kiln_helper *idle[KILN_DECODE_KIND_COUNT];
     struct known *known;
+    uint64_t largest_picture; /* bytes */
 };
 
 /* ---- creating and destroying ----------------------------------------------------------------- */
@@ -224,8 +225,11 @@ struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decod
         kiln_helper_end(&helper);
     const uint64_t most_memory =
         loader ? kiln_budget_left(loader->params.budget, KILN_LIMIT_memory) : UINT64_MAX;
-    if (!helper)
+    if (!helper) {
         helper = kiln_helper_start(kind, most_memory, kiln_loader_caller(loader), error);
+        if (helper && loader)
+            kiln_helper_count(helper, loader->params.budget);
+    }
     if (helper)
         kiln_helper_begin(helper);
     return helper;
@@ -274,4 +278,24 @@ void kiln_loader_remember_size(struct kiln_loader *loader, const char *path, con
     one->next = loader->known;
     loader->known = one;
     pthread_mutex_unlock(&loader->mutex);
+}
+
+void kiln_loader_add_picture(struct kiln_loader *loader, uint64_t bytes)
+{
+    if (!loader)
+        return;
+    pthread_mutex_lock(&loader->mutex);
+    if (bytes > loader->largest_picture)
+        loader->largest_picture = bytes;
+    pthread_mutex_unlock(&loader->mutex);
+}
+
+uint64_t kiln_loader_largest_picture(struct kiln_loader *loader)
+{
+    if (!loader)
+        return 0;
+    pthread_mutex_lock(&loader->mutex);
+    const uint64_t bytes = loader->largest_picture;
+    pthread_mutex_unlock(&loader->mutex);
+    return bytes;
 }

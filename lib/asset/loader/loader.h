@@ -82,9 +82,13 @@ void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **help
 
 /* kiln_loader_knows_size gives width and height of a picture that was checked before, so that it
  * need not be decoded or counted again. It returns false if the picture was not checked.
- * kiln_loader_remember_size keeps the size of a picture that was checked. */
+ * kiln_loader_remember_size keeps the size of a picture that was checked. kiln_loader_add_picture
+ * takes note of the bytes of a picture that was decoded, and kiln_loader_largest_picture returns
+ * those of the largest one; 0 for a loader of NULL. */
 bool kiln_loader_knows_size(struct kiln_loader *loader, const char *path, uint32_t size[2]);
 void kiln_loader_remember_size(struct kiln_loader *loader, const char *path,
                                const uint32_t size[2]);
+void kiln_loader_add_picture(struct kiln_loader *loader, uint64_t bytes);
+uint64_t kiln_loader_largest_picture(struct kiln_loader *loader);
 
 #endif

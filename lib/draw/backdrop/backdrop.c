@@ -175,8 +175,6 @@ static void add_picture(const struct kiln_scene *scene, const char *path,
     if (!path || path[0] != '/' || !kiln_loader_knows_size(scene->loader, path, size))
         return;
     kiln_footprint_add(footprint, KILN_FOOTPRINT_BACKDROP, 1, kiln_pyramid_bytes(size[0], size[1]));
-    kiln_footprint_pass(footprint, KILN_FOOTPRINT_BACKDROP,
-                        kiln_asset_image_expected_bytes(path, size));
 }
 
 void kiln_backdrop_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
@@ -186,7 +184,8 @@ void kiln_backdrop_footprint(const struct kiln_scene *scene, struct kiln_footpri
     add_picture(scene, scene->backdrop.sky_image, footprint);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, sizeof(float)); /* surfaces */
     kiln_meshes_cpu_footprint(scene, footprint);
-    if (kiln_scene_view_stands(scene) && scene->frames > 1)
+    /* Surfaces are kept for the next picture: of the next frame, or of another moment of it. */
+    if (kiln_scene_view_stands(scene) && (scene->frames > 1 || kiln_scene_moment_count(scene) > 1))
         kiln_surface_cache_footprint(scene, footprint);
 }
 

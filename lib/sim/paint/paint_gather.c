@@ -22,11 +22,10 @@ enum {
     CELLS = 32,        /* most cells along an axis */
     CHUNKS = 16,       /* most chunks of the splats */
     LEAST_CHUNK = 256, /* least splats of a chunk */
-    /* Most entries of all lists together. If there would be more, no lists are written, and every
-     * block tests every splat. */
-    MOST_LISTED = 1 << 26,
+    /* Most entries of all lists together, more than a mesh has blocks. If there would be more, the
+     * splats are painted in parts, one after the other, so that the memory is bounded. */
+    MOST_LISTED = 1 << 21,
     BLOCKS_AT_A_TIME = 16, /* blocks that a thread takes at once */
-    BLOCKS_OF_A_SPLAT = 8, /* that a splat may reach, as the memory is estimated */
 };
 
 /* ---- the grid -------------------------------------------------------------------------------- */
@@ -101,8 +100,7 @@ void kiln_paint_grid_footprint(uint32_t edge, uint64_t splats, struct kiln_footp
     const struct kiln_paint_grid *g = NULL;
     const uint64_t blocks = ((uint64_t)edge * edge + KILN_CHART_BLOCK - 1) / KILN_CHART_BLOCK;
     const uint64_t of_block = sizeof *g->middle + sizeof *g->blocks + CHUNKS * sizeof *g->ends;
-    const uint64_t listed =
-        splats < MOST_LISTED / BLOCKS_OF_A_SPLAT ? splats * BLOCKS_OF_A_SPLAT : MOST_LISTED;
+    const uint64_t listed = splats < MOST_LISTED / blocks ? splats * blocks : MOST_LISTED;
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, blocks, of_block);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, (uint64_t)CELLS * CELLS * CELLS + 2,
                        sizeof *g->first);
@@ -125,7 +123,6 @@ struct gathering {
     const struct kiln_paint_gather *gather;
     const struct kiln_splat *splats;
     uint32_t count, chunk; /* number of splats, and of splats in a chunk */
-    bool listed;           /* true: blocks have lists in the grid */
     float (*texels)[4];
     atomic_bool changed;
 };
@@ -195,9 +192,8 @@ static void write_chunks(void *context, size_t begin, size_t end, uint32_t worke
     deal_chunks(g, begin, end, g->gather->grid->list);
 }
 
-/* Makes the lists, or leaves g->listed false where they would be too long. Afterwards, the ends of
- * the last chunk are the ends of the blocks' lists. */
-static bool make_lists(struct gathering *g, struct kiln_error *error)
+/* Counts the entries of all lists, and finds where each begins. */
+static uint64_t count_entries(struct gathering *g)
 {
     struct kiln_paint_grid *grid = g->gather->grid;
     const uint32_t blocks = g->gather->chart->block_count;
@@ -214,12 +210,23 @@ static bool make_lists(struct gathering *g, struct kiln_error *error)
             total += count;
         }
     }
-    g->listed = total <= MOST_LISTED;
-    if (!g->listed)
-        return true;
+    return total;
+}
+
+/* Makes the lists of the next splats: of all that are left, or of as many as the lists may hold.
+ * Afterwards, the ends of the last chunk are the ends of the blocks' lists. */
+static bool make_lists(struct gathering *g, struct kiln_error *error)
+{
+    struct kiln_paint_grid *grid = g->gather->grid;
+    uint64_t total = count_entries(g);
+    while (total > MOST_LISTED) {
+        g->count = (g->count + 1) / 2;
+        total = count_entries(g);
+    }
     if (total > grid->list_capacity) {
         free(grid->list);
-        grid->list_capacity = total + total / 2;
+        const uint64_t more = total + total / 2;
+        grid->list_capacity = more < MOST_LISTED ? more : MOST_LISTED;
         grid->list = malloc(grid->list_capacity * sizeof *grid->list);
     }
     if (total > 0 && !grid->list) {
@@ -245,7 +252,7 @@ static void paint_blocks(void *context, size_t begin, size_t end, uint32_t worke
     for (size_t b = begin; b < end; b++) {
         const uint32_t *list = NULL;
         size_t count = g->count;
-        if (g->listed) {
+        if (gather->grid) {
             const uint32_t *ends = gather->grid->ends + (size_t)(CHUNKS - 1) * blocks;
             const uint32_t from = b > 0 ? ends[b - 1] : 0;
             list = gather->grid->list + from;
@@ -265,12 +272,15 @@ bool kiln_paint_gather(const struct kiln_paint_gather *gather, const struct kiln
 {
     struct gathering g = {.gather = gather, .splats = splats, .count = count, .texels = texels};
     *changed = false;
-    if (count == 0)
-        return true;
-    if (gather->grid && !make_lists(&g, error))
-        return false;
-    kiln_threads_for(gather->threads, gather->chart->block_count, BLOCKS_AT_A_TIME, paint_blocks,
-                     &g);
+    for (uint32_t done = 0; done < count; done += g.count) {
+        g.splats = splats + done;
+        if (!gather->grid || g.count > count - done)
+            g.count = count - done;
+        if (gather->grid && !make_lists(&g, error))
+            return false;
+        kiln_threads_for(gather->threads, gather->chart->block_count, BLOCKS_AT_A_TIME,
+                         paint_blocks, &g);
+    }
     *changed = atomic_load(&g.changed);
     return true;
 }
