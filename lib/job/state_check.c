@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "scene/family.h"
+#include "scene/scene_births.h"
 #include "shared/derived.h"
 #include "shared/step.h"
 

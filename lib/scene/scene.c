@@ -12,6 +12,7 @@
 
 #include "asset/loader/loader.h"
 #include "base/matrix.h"
+#include "scene/scene_births.h"
 #include "scene/work.h"
 #include "shared/exact.h"
 #include "shared/random.h"

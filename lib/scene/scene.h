@@ -588,14 +588,4 @@ const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *s
 /* Returns the parameters that recompute a particle from its record (shared/derived.h). */
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);
 
-/* Holds the births of a system for lib/particles. source.context points into the struct, which must
- * not be moved after it was filled. */
-struct kiln_scene_births {
-    struct kiln_births_source source;
-    const struct kiln_scene *scene;
-    const struct kiln_value *rate;
-};
-void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_scene *scene,
-                            uint32_t system);
-
 #endif

@@ -16,6 +16,7 @@
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
+#include "scene/scene_births.h"
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/scene_births.h"
 #include "shared/step.h"
 
 /* A slot that a shown particle took, and what was in it. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/scene_births.h"
 #include "shared/exact.h"
 #include "shared/forces.h"
 #include "shared/random.h"
