@@ -354,12 +354,14 @@ static const struct bad kinds[] = {
      ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
-     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, found "
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "
+     "found "
      "a "
      "mapping"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: cone}}}\n",
-     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, found "
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "
+     "found "
      "'cone'"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {cone: 5}}}}\n",
