@@ -212,6 +212,9 @@ void gltf_morph(struct gltf_primitive *primitive, const float *weights);
 /* Gives the model's looks the materials that its meshes have, unless they are not wanted. */
 bool gltf_put_materials(struct gltf *g, struct decode_model *model);
 
+/* Replaces texture coordinates that are not finite by 0. uvs may be NULL. */
+void gltf_bound_uvs(float (*uvs)[2], size_t count);
+
 /* Reads colours and second texture coordinates of vertices, if materials are wanted. */
 bool gltf_read_colors(struct gltf *g, const json_t *attributes, struct gltf_range range,
                       struct gltf_primitive *primitive);

@@ -327,6 +327,14 @@ bool gltf_put_colors(struct gltf *g, const float *colors, uint32_t width,
     return true;
 }
 
+/* Texture coordinates that are no numbers become 0, as in OBJ and PLY: triangles without a place in
+ * the texture are no reason to lose the mesh, or all its materials. */
+void gltf_bound_uvs(float (*uvs)[2], size_t count)
+{
+    for (size_t i = 0; uvs && i < 2 * count; i++)
+        uvs[i / 2][i % 2] = isfinite(uvs[i / 2][i % 2]) ? uvs[i / 2][i % 2] : 0.0f;
+}
+
 bool gltf_read_colors(struct gltf *g, const json_t *attributes, struct gltf_range range,
                       struct gltf_primitive *primitive)
 {
@@ -337,6 +345,7 @@ bool gltf_read_colors(struct gltf *g, const json_t *attributes, struct gltf_rang
         primitive->second_uvs = (float(*)[2])gltf_read(g, accessor, "VEC2", range);
         if (!primitive->second_uvs)
             return false;
+        gltf_bound_uvs(primitive->second_uvs, range.count);
     }
     if (!element_of(g, attributes, "COLOR_0", GLTF_ACCESSORS, &accessor))
         return true;

@@ -318,6 +318,8 @@ static bool read_plain(struct gltf *g, const json_t *json, uint32_t mode, bool u
     out->positions = (float(*)[3])positions;
     out->normals = (float(*)[3])normals;
     out->uvs = (float(*)[2])coordinates;
+    if (ok)
+        gltf_bound_uvs(out->uvs, range.count);
     out->vertex_count = range.count;
     return ok && gltf_read_colors(g, attributes, range, out) &&
            (!weights || read_weights(g, attributes, range, out)) &&
