@@ -145,12 +145,10 @@ const struct command check_command = {
         "standard input, whose files lie below the working directory. The output is a scene file "
         "that renders to the same pictures. Comments at its end tell what its meshes are (their "
         "size, whether they are closed, their joints, clips and materials, and what is left out of "
-        "them), and the work of the whole clip: "
-        "steps, particles at once, and memory. The memory is the most that rendering without "
-        "OpenGL "
-        "may take, encoders left out. After a wrong scene is reported, the other "
-        "scenes are checked all the same. A scene that asks for more than --limits allow ends with "
-        "exit code 8.",
+        "them), and the work of the whole clip: steps, particles at once, and memory. The memory "
+        "is the most that rendering without OpenGL may take, encoders left out. After a wrong "
+        "scene is reported, the other scenes are checked all the same. A scene that asks for more "
+        "than --limits allow ends with exit code 8.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

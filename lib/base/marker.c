@@ -15,8 +15,8 @@ static const struct {
 } markers[] = {
     /* GitHub's runner, src/Runner.Common/ActionCommand.cs, TryParseV2: "::set-output name=a::b" */
     {"::", 1, true},
-    /* The same file, TryParse: "##[set-env name=A]b", anywhere in a line. Azure Pipelines, "Logging
-     * commands", has "##[group]" and its like. */
+    /* TryParse in the same file takes "##[set-env name=A]b", anywhere in a line. Azure Pipelines,
+     * "Logging commands", has "##[group]" and its like. */
     {"##[", 1, false},
     /* Azure Pipelines, "Logging commands"; its agent, Microsoft.VisualStudio.Services.Agent/
      * Command.cs, looks for it anywhere in a line: "##vso[task.setvariable variable=A]b" */

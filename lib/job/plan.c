@@ -18,7 +18,7 @@
 /* A frame that takes longer is drawn only once. */
 static const double LONG_FRAME_S = 2.0;
 
-/* What was measured, and the work that it was. */
+/* A sample is the time that was measured for some work of struct kiln_workload. */
 struct sample {
     double work, cpu_s;
 };

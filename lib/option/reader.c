@@ -69,10 +69,11 @@ static const struct kiln_node *entry_of_list(const struct kiln_node *list, const
 
 /* Sets the error to a message about the node that a path leads to, or about the last one on the way
  * that exists. */
-static bool set_error_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                         const char *message)
+static void set_error_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                         const char *format, va_list args)
 {
-    char name[64];
+    char message[KILN_MESSAGE_SIZE], name[64];
+    vsnprintf(message, sizeof message, format, args);
     const struct kiln_node *node = root;
     for (const char *part = path; node && *part;) {
         size_t length = strcspn(part, ".");
@@ -87,31 +88,28 @@ static bool set_error_at(struct kiln_reader *reader, const struct kiln_node *roo
     kiln_reader_leave(reader, 0);
     snprintf(reader->path, sizeof reader->path, "%s", path);
     reader->path_length = strlen(reader->path);
-    return kiln_reader_error(reader, node, "%s", message);
+    kiln_reader_error(reader, node, "%s", message);
 }
 
 bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *root,
                           const char *path, const char *format, ...)
 {
-    char message[KILN_MESSAGE_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
+    set_error_at(reader, root, path, format, args);
     va_end(args);
-    return set_error_at(reader, root, path, message);
+    return false;
 }
 
 void kiln_reader_warn_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                          const char *format, ...)
 {
-    char message[KILN_MESSAGE_SIZE];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
-    va_end(args);
     struct kiln_error found = {0}, *kept = reader->error;
+    va_list args;
     reader->error = &found;
-    set_error_at(reader, root, path, message);
+    va_start(args, format);
+    set_error_at(reader, root, path, format, args);
+    va_end(args);
     reader->error = kept;
     kiln_log_write(reader->log, KILN_LOG_WARNING, "%s", found.message);
 }

@@ -3,17 +3,16 @@
 
 #include <string.h>
 
-#include "asset/atlas/atlas.h"
-#include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/sized.h"
+#include "base/thread.h"
 #include "scene/instant.h"
-#include "shared/particle.h"
 
-/* What the program takes without a scene: its code, libraries and small things. */
+/* The program takes this without a scene: for its code, libraries and small things. */
 enum { PROGRAM_BYTES = 38 << 20 };
 
-/* What reading a node of the scene's text takes, most of it in libfyaml. The allocator keeps it. */
+/* Reading takes this for a node of the scene's text, most of it in libfyaml. The allocator keeps
+ * it. */
 enum { NODE_BYTES = 500 };
 
 /* ---- counts ---------------------------------------------------------------------------------- */
@@ -31,35 +30,41 @@ uint64_t kiln_work_particles(const struct kiln_scene *scene)
     return particles;
 }
 
-uint64_t kiln_scene_solid_slots(const struct kiln_scene *scene)
+/* Sums up the slots of the enabled systems whose look is of a kind. */
+static uint64_t count_slots(const struct kiln_scene *scene,
+                            bool (*is_counted)(const struct kiln_look *look))
 {
     uint64_t slots = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
-        slots += system->enabled && kiln_look_is_opaque(&system->look) ? system->capacity : 0;
+        slots += system->enabled && is_counted(&system->look) ? system->capacity : 0;
     }
     return slots;
+}
+
+static bool is_mesh(const struct kiln_look *look)
+{
+    return look->shape == KILN_SHAPE_MESH;
+}
+
+static bool is_sprite(const struct kiln_look *look)
+{
+    return !kiln_look_is_opaque(look);
+}
+
+uint64_t kiln_scene_solid_slots(const struct kiln_scene *scene)
+{
+    return count_slots(scene, kiln_look_is_opaque);
 }
 
 uint64_t kiln_scene_mesh_slots(const struct kiln_scene *scene)
 {
-    uint64_t slots = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        const bool is_mesh = system->look.shape == KILN_SHAPE_MESH;
-        slots += system->enabled && is_mesh ? system->capacity : 0;
-    }
-    return slots;
+    return count_slots(scene, is_mesh);
 }
 
 uint64_t kiln_scene_sprite_slots(const struct kiln_scene *scene)
 {
-    uint64_t slots = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        slots += system->enabled && !kiln_look_is_opaque(&system->look) ? system->capacity : 0;
-    }
-    return slots;
+    return count_slots(scene, is_sprite);
 }
 
 /* ---- facts ----------------------------------------------------------------------------------- */

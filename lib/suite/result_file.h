@@ -6,7 +6,8 @@
 
 #include "kiln.h"
 
-/* Where the result of a test is: RESULTS/NAME. `results` is the folder that the user names. */
+/* The struct names the result of a test, RESULTS/NAME. `results` is the folder that the user names.
+ */
 struct kiln_result_place {
     const char *results;
     const char *name;

@@ -71,7 +71,7 @@ static void what_was_asked_for_is_asked_for_again(void **state)
     f.suite.is_found_by_name = true;
     assert_string_equal(kiln_test_case_approve_command(&f.test_case),
                         "kiln test approve --results r --golden 'my goldens' fire");
-    /* What is written is what the reader of results takes. */
+    /* The reader of results takes the same command. */
     struct kiln_result result;
     kiln_result_init(&result, "fire");
     result.test = "fire.yaml";

@@ -168,7 +168,7 @@ static void assert_results(const struct kiln_result *a, const struct kiln_result
         assert_string_equal(a->notes[i], b->notes[i]);
 }
 
-/* What is written is read as it was, in new folders, and over an older result. */
+/* A result that is written is read as it was, in new folders, and over an older result. */
 static void results_survive_the_file(void **state)
 {
     (void)state;
