@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asset/image/image.h"
 #include "asset/image/pyramid.h"
 #include "asset/image/texture.h"
 #include "asset/loader/loader.h"

@@ -364,17 +364,12 @@ bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view 
             return false;
     }
     project_meshes(m, view, shapes);
-    struct kiln_row_lists *lists = &m->canvas.lists;
     const struct kiln_row_items items = {
         .ranges = m->canvas.ranges,
         .count = (uint32_t)triangles_before(m->meshes, m->meshes->count),
         .height = m->height,
         .band_height = KILN_MESH_ROWS};
     struct raster_job job = {m, view};
-    bool ok = kiln_row_lists_start(lists, &items, error);
-    while (ok && lists->end < lists->bands)
-        ok = kiln_row_lists_next(lists, &items, error) &&
-             kiln_threads_try(m->canvas.threads, lists->end - lists->begin, 1, rasterise_bands,
-                              &job, error);
-    return ok;
+    return kiln_row_lists_draw(&m->canvas.lists, &items, m->canvas.threads, rasterise_bands, &job,
+                               error);
 }

@@ -195,17 +195,12 @@ bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_c
     shadow->sun = sun;
     struct shadow_job job = {shadow, canvas, mesh, 0};
     kiln_threads_for(canvas->threads, mesh->triangle_count, 512, project_triangles, &job);
-    struct kiln_row_lists *lists = &canvas->lists;
     const struct kiln_row_items items = {.ranges = canvas->ranges,
                                          .count = mesh->triangle_count,
                                          .height = EDGE,
                                          .band_height = KILN_MESH_ROWS};
-    shadow->drawn = kiln_row_lists_start(lists, &items, error);
-    while (shadow->drawn && lists->end < lists->bands) {
-        shadow->drawn = kiln_row_lists_next(lists, &items, error);
-        if (shadow->drawn)
-            kiln_threads_for(canvas->threads, lists->end - lists->begin, 1, draw_bands, &job);
-    }
+    shadow->drawn =
+        kiln_row_lists_draw(&canvas->lists, &items, canvas->threads, draw_bands, &job, error);
     if (!shadow->drawn)
         return false;
     while (++job.level < KILN_SHADOW_LEVELS)

@@ -397,12 +397,6 @@ bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_momen
                                          .count = count,
                                          .height = stage->scene->height,
                                          .band_height = KILN_SOLID_ROWS};
-    struct kiln_row_lists *lists = &stage->lists;
-    bool ok = open_images(&stage->targets, &job.strip, error) &&
-              kiln_row_lists_start(lists, &items, error);
-    while (ok && lists->end < lists->bands)
-        ok =
-            kiln_row_lists_next(lists, &items, error) &&
-            kiln_threads_try(stage->threads, lists->end - lists->begin, 1, draw_bands, &job, error);
-    return ok;
+    return open_images(&stage->targets, &job.strip, error) &&
+           kiln_row_lists_draw(&stage->lists, &items, stage->threads, draw_bands, &job, error);
 }

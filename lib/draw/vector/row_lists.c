@@ -36,8 +36,9 @@ static bool make_room(struct kiln_row_lists *lists, size_t entries)
     return lists->list != NULL;
 }
 
-bool kiln_row_lists_start(struct kiln_row_lists *lists, const struct kiln_row_items *items,
-                          struct kiln_error *error)
+/* Counts the items of each band, and sums up where the lists begin. */
+static bool start(struct kiln_row_lists *lists, const struct kiln_row_items *items,
+                  struct kiln_error *error)
 {
     const int tall = (int)items->band_height;
     if (!make_bands(lists, (items->height + items->band_height - 1) / items->band_height))
@@ -55,8 +56,9 @@ bool kiln_row_lists_start(struct kiln_row_lists *lists, const struct kiln_row_it
     return true;
 }
 
-bool kiln_row_lists_next(struct kiln_row_lists *lists, const struct kiln_row_items *items,
-                         struct kiln_error *error)
+/* Makes the lists of the next bands, of as many as fit, but of one at least. */
+static bool make_next(struct kiln_row_lists *lists, const struct kiln_row_items *items,
+                      struct kiln_error *error)
 {
     const int tall = (int)items->band_height;
     const size_t *first = lists->first;
@@ -80,6 +82,18 @@ bool kiln_row_lists_next(struct kiln_row_lists *lists, const struct kiln_row_ite
             lists->list[lists->next[band]++] = i;
     }
     return true;
+}
+
+bool kiln_row_lists_draw(struct kiln_row_lists *lists, const struct kiln_row_items *items,
+                         struct kiln_threads *threads,
+                         void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
+                         void *context, struct kiln_error *error)
+{
+    bool ok = start(lists, items, error);
+    while (ok && lists->end < lists->bands)
+        ok = make_next(lists, items, error) &&
+             kiln_threads_try(threads, lists->end - lists->begin, 1, body, context, error);
+    return ok;
 }
 
 void kiln_row_lists_finish(struct kiln_row_lists *lists)

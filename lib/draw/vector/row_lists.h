@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/footprint.h"
+#include "base/thread.h"
 #include "kiln.h"
 #include "shared/exact.h"
 
@@ -45,15 +46,14 @@ static inline struct kiln_row_range kiln_row_range_between(float low, float high
                                    (int16_t)exact_int(exact_clamp(high + 1.0f, 0.0f, size))};
 }
 
-/* Counts the items of each band. The lists start as zeros and may be used again.
- * kiln_row_lists_next makes lists while `end` is less than `bands`. False with an error: no memory.
+/* Makes the lists of some bands after each other, and calls body as kiln_threads_try does for as
+ * many bands, until all have been drawn. Number i of a loop is band `begin` + i. The lists start as
+ * zeros and may be used again. Returns false with an error: no memory, or the caller wants no more.
  */
-bool kiln_row_lists_start(struct kiln_row_lists *lists, const struct kiln_row_items *items,
-                          struct kiln_error *error);
-
-/* Makes the lists of the next bands, `begin` to `end` - 1. */
-bool kiln_row_lists_next(struct kiln_row_lists *lists, const struct kiln_row_items *items,
-                         struct kiln_error *error);
+bool kiln_row_lists_draw(struct kiln_row_lists *lists, const struct kiln_row_items *items,
+                         struct kiln_threads *threads,
+                         void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
+                         void *context, struct kiln_error *error);
 
 /* Returns the list of a band that has one now, and its length. */
 static inline const uint32_t *kiln_row_lists_of(const struct kiln_row_lists *lists, size_t band,
