@@ -100,6 +100,23 @@ static void add_lives(const struct kiln_workload *w, const struct numbers *n, ui
     n->slopes[b + 1] += fall;
 }
 
+/* Return the limits of lives that begin at a time. */
+static double least_life_s(const struct kiln_scene *scene, const struct kiln_range *life,
+                           float time_s)
+{
+    if (kiln_value_uses(scene->keys, &life->min) & KILN_VALUE_OF_PARTICLES)
+        return (double)kiln_scene_value_min(scene, &life->min);
+    return (double)kiln_scene_value(scene, &life->min, time_s);
+}
+
+static double most_life_s(const struct kiln_scene *scene, const struct kiln_range *life,
+                          float time_s)
+{
+    if (kiln_value_uses(scene->keys, &life->max) & KILN_VALUE_OF_PARTICLES)
+        return (double)kiln_scene_value_max(scene, &life->max);
+    return (double)kiln_scene_value(scene, &life->max, time_s);
+}
+
 static void find_living(const struct kiln_workload *w, const struct kiln_system *system,
                         const struct numbers *n)
 {
@@ -108,8 +125,8 @@ static void find_living(const struct kiln_workload *w, const struct kiln_system 
         n->jumps[i] = n->slopes[i] = 0.0;
     for (uint32_t i = 0; i < w->count; i++) {
         const float time_s = (float)time_of(w, i);
-        const double least = (double)kiln_scene_value(w->scene, &life->min, time_s);
-        const double most = (double)kiln_scene_value(w->scene, &life->max, time_s);
+        const double least = least_life_s(w->scene, life, time_s);
+        const double most = most_life_s(w->scene, life, time_s);
         if (n->births[i] > 0.0)
             add_lives(w, n, i, n->births[i], fmin(least, most) / w->length_s,
                       fmax(least, most) / w->length_s);

@@ -31,12 +31,18 @@ void kiln_option_suggest(char *out, size_t size, const char *name, const char *c
 const char *kiln_option_clocks(const struct kiln_option *option)
 {
     switch (option->clocks) {
-    case KILN_ALLOW_TIME:
+    case KILN_OVER_TIME:
         return "over time";
-    case KILN_ALLOW_LIFE:
-        return "over life";
-    case KILN_ALLOW_BOTH:
-        return "over time or life";
+    case KILN_AT_BIRTH:
+        return "over time or at random";
+    case KILN_OVER_LIFE:
+        return "over every clock but distance";
+    case KILN_WHEN_DRAWN:
+        return "over every clock";
+    case KILN_SUMMED_UP:
+        return "over life or at random";
+    case KILN_SUMMED_UP | KILN_ALLOW_TIME:
+        return "over time, over life or at random";
     default:
         return NULL;
     }

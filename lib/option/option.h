@@ -87,10 +87,31 @@ struct kiln_option_kind {
     const char *help;
 };
 
+/* The clocks that a value may have, and combinations of them. */
 enum {
     KILN_ALLOW_TIME = 1 << KILN_CLOCK_TIME,
     KILN_ALLOW_LIFE = 1 << KILN_CLOCK_LIFE,
-    KILN_ALLOW_BOTH = KILN_ALLOW_TIME | KILN_ALLOW_LIFE,
+    KILN_ALLOW_AGE = 1 << KILN_CLOCK_AGE,
+    KILN_ALLOW_SPEED = 1 << KILN_CLOCK_SPEED,
+    KILN_ALLOW_HEIGHT = 1 << KILN_CLOCK_HEIGHT,
+    KILN_ALLOW_DISTANCE = 1 << KILN_CLOCK_DISTANCE,
+    KILN_ALLOW_RANDOM = 1 << KILN_CLOCK_RANDOM,
+    KILN_ALLOW_NOISE = 1 << KILN_CLOCK_NOISE, /* the same for all particles */
+    KILN_ALLOW_OWN_NOISE = 1 << 9,            /* of each particle */
+    KILN_ALLOW_FORMS = 1 << 10,               /* curved eases, and repetition */
+    KILN_ALLOW_PARTS = 1 << 11,               /* `times` and `plus` */
+
+    /* the same for all particles at a time */
+    KILN_OVER_TIME = KILN_ALLOW_TIME | KILN_ALLOW_NOISE | KILN_ALLOW_FORMS | KILN_ALLOW_PARTS,
+    /* evaluated once for a particle, at its birth */
+    KILN_AT_BIRTH = KILN_OVER_TIME | KILN_ALLOW_RANDOM,
+    /* evaluated for a particle whenever it moves */
+    KILN_OVER_LIFE = KILN_AT_BIRTH | KILN_ALLOW_LIFE | KILN_ALLOW_AGE | KILN_ALLOW_SPEED |
+                     KILN_ALLOW_HEIGHT | KILN_ALLOW_OWN_NOISE,
+    /* evaluated for a particle when it is drawn */
+    KILN_WHEN_DRAWN = KILN_OVER_LIFE | KILN_ALLOW_DISTANCE,
+    /* summed up over a particle's life */
+    KILN_SUMMED_UP = KILN_ALLOW_LIFE | KILN_ALLOW_RANDOM | KILN_ALLOW_PARTS,
 };
 
 struct kiln_option {
@@ -105,8 +126,11 @@ struct kiln_option {
     unsigned (*parts)(const void *source, const void *base);
     double min, max;               /* limits in SI units, inclusive */
     enum kiln_dimension dimension; /* what a number measures */
-    /* KILN_ALLOW_* for keys over time or life; a constant is always allowed */
-    unsigned clocks;
+    unsigned clocks; /* KILN_ALLOW_*: how a value may vary; a constant is always allowed */
+    /* the number of the row among those whose values may be random or a noise: it decides what they
+     * draw, so it must not change. No other row of a system has it, nor, of rows outside of
+     * systems, another one. */
+    unsigned draws;
     const char *const *choices; /* words in the order of the enum, NULL at the end */
     /* a word that stands for 0/1 (rational) or for KILN_VALUE_BY_WORD (value, whose min is at least
      * 0) */
@@ -143,8 +167,7 @@ bool kiln_option_is_name(const char *text);
 void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,
                          size_t count);
 
-/* Returns how a value may vary, as "over time", "over life" or "over time or life", or NULL if it
- * must be constant. */
+/* Returns how a value may vary, such as "over time", or NULL if it must be constant. */
 const char *kiln_option_clocks(const struct kiln_option *option);
 
 /* Appends a text such as " from 0 m to 10 m". */

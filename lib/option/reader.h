@@ -16,6 +16,7 @@ struct kiln_reader {
     const struct kiln_log *log; /* gets warnings; NULL: nobody does */
     void *target; /* the struct that the whole table fills, for types that need other parts of it */
 
+    uint32_t item;  /* number of the entry of a list that is being read, of the innermost list */
     char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */
     size_t path_length;
     float4 *keys; /* keys of all animated values read so far; NULL before the first */

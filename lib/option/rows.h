@@ -10,8 +10,14 @@
 #include "base/field.h"
 #include "option/option.h"
 
-#define TIME KILN_ALLOW_TIME
-#define BOTH KILN_ALLOW_BOTH
+/* How the value of a row may vary: the member `clocks`, and `draws` in the brackets. 0 stands for a
+ * constant. */
+#define TIME(n)    KILN_OVER_TIME, .draws = n
+#define BIRTH(n)   KILN_AT_BIRTH, .draws = n
+#define LIFE(n)    KILN_OVER_LIFE, .draws = n
+#define DRAWN(n)   KILN_WHEN_DRAWN, .draws = n
+#define SUMMED(n)  KILN_SUMMED_UP, .draws = n
+#define SUMMED_OVER_TIME(n) KILN_SUMMED_UP | KILN_ALLOW_TIME, .draws = n
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 

@@ -194,16 +194,19 @@ static bool read_list(struct kiln_reader *reader, const struct kiln_option *opti
     if (node->kind != KILN_NODE_LIST)
         return kiln_reader_mismatch(reader, option, node);
     uint32_t *count = begin_entries(reader, option, node, field);
+    const uint32_t outer = reader->item;
     if (!count)
         return false;
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         void *item = (char *)field + *count * option->item_size;
         size_t before = kiln_reader_enter_index(reader, *count);
+        reader->item = *count;
         if (!option->item->type->read(reader, option->item, entry, item))
             return false;
         kiln_reader_leave(reader, before);
         ++*count;
     }
+    reader->item = outer;
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "option/animated.h"
 #include "option/schema.h"
+#include "option/value_form.h"
 
 /* ---- value ---------------------------------------------------------------------------------- */
 
@@ -24,7 +25,7 @@ static void print_value(struct kiln_printer *printer, const struct kiln_option *
     if (option->special_word && value->count == 0 && value->constant < 0.0f)
         kiln_text_add(&printer->text, "%s", option->special_word);
     else
-        kiln_print_animated(printer, option, value);
+        kiln_print_value(printer, option, value);
     kiln_text_add(&printer->text, "\n");
 }
 
@@ -36,30 +37,74 @@ static void describe_value(const struct kiln_option *option, struct kiln_text *o
         kiln_text_add(out, ", or %s", option->special_word);
 }
 
-/* Appends the schemas of {"keys": {...}} and {"life": ...}, with `plain` as the schema of each
- * key's value. */
-static void schema_curves(const struct kiln_option *option, const char *plain,
+/* Appends the schema of the keys of a clock. plain: that of each key's value. */
+static void schema_keys(const struct kiln_value_clock *clock, const char *plain,
+                        struct kiln_text *out)
+{
+    if (clock->takes_list && !clock->only_list)
+        kiln_text_add(out, "{\"anyOf\": [");
+    if (clock->takes_list)
+        kiln_text_add(out, "{\"type\": \"array\", \"minItems\": 1, \"items\": %s}", plain);
+    if (clock->only_list)
+        return;
+    kiln_text_add(out, clock->takes_list ? ", " : "");
+    kiln_text_add(out, "{\"type\": \"object\", \"minProperties\": 1, "
+                       "\"propertyNames\": {\"pattern\": ");
+    kiln_schema_number_pattern(clock->axis.dimension, out);
+    kiln_text_add(out, "}, \"additionalProperties\": %s}", plain);
+    kiln_text_add(out, clock->takes_list ? "]}" : "");
+}
+
+/* Appends the schemas of what may stand beside a clock. plain: that of a key's value. */
+static void schema_besides(const struct kiln_option *option, const char *plain,
+                           struct kiln_text *out)
+{
+    kiln_text_add(out, ", \"ease\": {\"enum\": [\"linear\", \"step\"%s]}",
+                  option->clocks & KILN_ALLOW_FORMS ? ", \"smooth\", \"in\", \"out\"" : "");
+    if (option->clocks & KILN_ALLOW_FORMS)
+        kiln_text_add(out, ", \"repeat\": {\"enum\": [\"none\", \"loop\", \"mirror\"]}");
+    if (option->clocks & (KILN_ALLOW_RANDOM | KILN_ALLOW_NOISE))
+        kiln_text_add(out, ", \"seed\": {\"type\": \"integer\", \"minimum\": %d, \"maximum\": %d}",
+                      (int)kiln_value_seed.min, (int)kiln_value_seed.max);
+    if (option->clocks & KILN_ALLOW_RANDOM)
+        kiln_text_add(out, ", \"weights\": {\"type\": \"array\", \"items\": {\"type\": \"number\"}}");
+    if (option->clocks & KILN_ALLOW_NOISE) {
+        kiln_text_add(out, ", \"period\": ");
+        kiln_schema_number(&kiln_value_period, out);
+        kiln_text_add(out, ", \"octaves\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": %u}",
+                      VALUE_NOISE_OCTAVES);
+        kiln_text_add(out, ", \"per\": {\"enum\": [\"system\"%s]}",
+                      option->clocks & KILN_ALLOW_OWN_NOISE ? ", \"particle\"" : "");
+    }
+    if (option->clocks & KILN_ALLOW_PARTS)
+        kiln_text_add(out,
+                      ", \"times\": {\"type\": [\"number\", \"string\", \"object\"]}, \"plus\": "
+                      "{\"anyOf\": [%s, {\"type\": [\"object\", \"array\"]}]}", plain);
+}
+
+/* Appends the schema of a mapping with a clock. */
+static void schema_clocks(const struct kiln_option *option, const char *plain,
                           struct kiln_text *out)
 {
-    if (option->clocks & KILN_ALLOW_TIME) {
-        kiln_text_add(out, ", {\"type\": \"object\", \"required\": [\"keys\"], "
-                           "\"additionalProperties\": false, \"properties\": {\"keys\": "
-                           "{\"type\": \"object\", \"minProperties\": 1, "
-                           "\"propertyNames\": {\"pattern\": ");
-        kiln_schema_number_pattern(KILN_SECONDS, out);
-        kiln_text_add(out, "}, \"additionalProperties\": %s}}}", plain);
+    const char *separator = "";
+    kiln_text_add(out, ", {\"type\": \"object\", \"oneOf\": [");
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        if (!(option->clocks & kiln_value_clocks[i].allowed))
+            continue;
+        kiln_text_add(out, "%s{\"required\": [\"%s\"]}", separator, kiln_value_clocks[i].name);
+        separator = ", ";
     }
-    if (option->clocks & KILN_ALLOW_LIFE) {
-        kiln_text_add(out,
-                      ", {\"type\": \"object\", \"required\": [\"life\"], "
-                      "\"additionalProperties\": false, \"properties\": {\"life\": "
-                      "{\"anyOf\": [{\"type\": \"array\", \"minItems\": 1, \"items\": %s}, "
-                      "{\"type\": \"object\", \"minProperties\": 1, "
-                      "\"propertyNames\": {\"pattern\": ",
-                      plain);
-        kiln_schema_number_pattern(KILN_FRACTION, out);
-        kiln_text_add(out, "}, \"additionalProperties\": %s}]}}}", plain);
+    kiln_text_add(out, "], \"additionalProperties\": false, \"properties\": {");
+    separator = "";
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        if (!(option->clocks & kiln_value_clocks[i].allowed))
+            continue;
+        kiln_text_add(out, "%s\"%s\": ", separator, kiln_value_clocks[i].name);
+        schema_keys(&kiln_value_clocks[i], plain, out);
+        separator = ", ";
     }
+    schema_besides(option, plain, out);
+    kiln_text_add(out, "}}");
 }
 
 static void schema_value(const struct kiln_option *option, struct kiln_text *out)
@@ -71,7 +116,7 @@ static void schema_value(const struct kiln_option *option, struct kiln_text *out
     struct kiln_text plain = {0};
     kiln_schema_number(option, &plain);
     kiln_text_add(out, "{\"anyOf\": [%s", plain.data ? plain.data : "");
-    schema_curves(option, plain.data ? plain.data : "", out);
+    schema_clocks(option, plain.data ? plain.data : "", out);
     if (option->special_word)
         kiln_text_add(out, ", {\"const\": \"%s\"}", option->special_word);
     kiln_text_add(out, "]}");
@@ -98,58 +143,12 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
     return true;
 }
 
-/* Returns whether the three curves can be written as one curve of [x, y, z]. */
-static bool share_keys(const float4 *keys, const struct kiln_value3 *v)
-{
-    if (v->x.count == 0 || v->y.count != v->x.count || v->z.count != v->x.count ||
-        v->y.clock != v->x.clock || v->z.clock != v->x.clock ||
-        v->y.first != v->x.first + v->x.count || v->z.first != v->y.first + v->y.count)
-        return false;
-    for (uint32_t i = 0; i < v->x.count; i++) {
-        float x = keys[v->x.first + i].x;
-        if (keys[v->y.first + i].x != x || keys[v->z.first + i].x != x)
-            return false;
-    }
-    return true;
-}
-
-static void print_shared_keys(struct kiln_printer *printer, const struct kiln_option *option,
-                              const struct kiln_value3 *v)
-{
-    const float4 *keys = printer->keys;
-    bool over_life = v->x.clock == KILN_CLOCK_LIFE;
-    kiln_text_add(&printer->text, over_life ? " {life: {" : " {keys: {");
-    for (uint32_t i = 0; i < v->x.count; i++) {
-        char text[4][48];
-        kiln_unit_print(text[0], over_life ? KILN_FRACTION : KILN_SECONDS, keys[v->x.first + i].x);
-        kiln_unit_print(text[1], option->dimension, keys[v->x.first + i].y);
-        kiln_unit_print(text[2], option->dimension, keys[v->y.first + i].y);
-        kiln_unit_print(text[3], option->dimension, keys[v->z.first + i].y);
-        kiln_text_add(&printer->text, "%s%s: [%s, %s, %s]", i ? ", " : "", text[0], text[1],
-                      text[2], text[3]);
-    }
-    kiln_text_add(&printer->text, "}}\n");
-}
-
 static void print_vector(struct kiln_printer *printer, const struct kiln_option *option,
                          const void *field)
 {
-    const struct kiln_value3 *v = field;
-    struct kiln_option unitless =
-        *option; /* without units, since three in a row are hard to read */
-    if (!kiln_unit_is_required(option->dimension))
-        unitless.dimension = KILN_PLAIN;
-    if (share_keys(printer->keys, v)) {
-        print_shared_keys(printer, &unitless, v);
-        return;
-    }
-    kiln_text_add(&printer->text, " [");
-    kiln_print_animated(printer, &unitless, &v->x);
-    kiln_text_add(&printer->text, ", ");
-    kiln_print_animated(printer, &unitless, &v->y);
-    kiln_text_add(&printer->text, ", ");
-    kiln_print_animated(printer, &unitless, &v->z);
-    kiln_text_add(&printer->text, "]\n");
+    kiln_text_add(&printer->text, " ");
+    kiln_print_vector(printer, option, field);
+    kiln_text_add(&printer->text, "\n");
 }
 
 static void describe_vector(const struct kiln_option *option, struct kiln_text *out)
@@ -187,7 +186,7 @@ static void schema_vector(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, array, animated);
     if (grey)
         kiln_text_add(out, ", %s, %s", item, SRGB);
-    schema_curves(option, plain.data ? plain.data : "", out);
+    schema_clocks(option, plain.data ? plain.data : "", out);
     kiln_text_add(out, "]}");
     out->failed |= number.failed || component.failed || plain.failed;
     kiln_text_free(&number);
@@ -217,8 +216,10 @@ static bool is_ordered(const float4 *keys, const struct kiln_range *range)
     const struct kiln_value *bounds[2] = {&range->min, &range->max};
     for (unsigned e = 0; e < 2; e++) {
         for (uint32_t i = 0; i < bounds[e]->count || i == 0; i++) {
-            float x = bounds[e]->count ? keys[bounds[e]->first + i].x : 0;
-            if (value_at(keys, range->min, x, x) > value_at(keys, range->max, x, x))
+            struct value_clocks clocks =
+                value_clocks_at(bounds[e]->count ? keys[bounds[e]->first + i].x : 0, 0);
+            clocks.life = clocks.time_s;
+            if (value_at(keys, range->min, clocks) > value_at(keys, range->max, clocks))
                 return false;
         }
     }
@@ -237,10 +238,13 @@ static bool read_range(struct kiln_reader *reader, const struct kiln_option *opt
     }
     if (node->count != 2)
         return kiln_reader_mismatch(reader, option, node);
-    if (!kiln_read_animated(reader, option, node->first, &range->min, 1) ||
-        !kiln_read_animated(reader, option, node->first->next, &range->max, 1))
+    struct kiln_option end = *option;
+    end.clocks &= KILN_ALLOW_TIME | KILN_ALLOW_LIFE;
+    if (!kiln_read_animated(reader, &end, node->first, &range->min, 1) ||
+        !kiln_read_animated(reader, &end, node->first->next, &range->max, 1))
         return false;
-    if (range->min.count > 0 && range->max.count > 0 && range->min.clock != range->max.clock)
+    if (range->min.count > 0 && range->max.count > 0 &&
+        VALUE_CLOCK(range->min.how) != VALUE_CLOCK(range->max.how))
         return kiln_reader_error(reader, node, "both must vary over time, or both over life");
     if (!is_ordered(reader->keys, range))
         return kiln_reader_error(reader, node, "the first must not be above the second");
@@ -256,9 +260,9 @@ static void print_range(struct kiln_printer *printer, const struct kiln_option *
         return;
     }
     kiln_text_add(&printer->text, " [");
-    kiln_print_animated(printer, option, &range->min);
+    kiln_print_value(printer, option, &range->min);
     kiln_text_add(&printer->text, ", ");
-    kiln_print_animated(printer, option, &range->max);
+    kiln_print_value(printer, option, &range->max);
     kiln_text_add(&printer->text, "]\n");
 }
 

@@ -1,5 +1,5 @@
-/* Declares the structs that some option types fill. Animated numbers are declared in
- * shared/value.h. */
+/* Declares the structs that some option types fill, and what can be asked about values. Values are
+ * declared in shared/value.h. */
 #ifndef KILN_OPTION_VALUES_H
 #define KILN_OPTION_VALUES_H
 
@@ -8,7 +8,7 @@
 
 #include "shared/value.h"
 
-/* The constant of an animated number if the file has the option's word instead. */
+/* The constant of a value if the file has the option's word instead. */
 #define KILN_VALUE_BY_WORD (-1.0f)
 
 /* Holds a positive fraction in its lowest terms, or 0/1 where the option has a word for it. */
@@ -21,5 +21,28 @@ struct kiln_bounds {
     bool enabled;
     float min[3], max[3]; /* m */
 };
+
+/* Bits of kiln_value_uses, beside those of VALUE_USES_*: the bit of a clock has its number. Each
+ * particle has a noise of its own. */
+#define KILN_VALUE_USES_OWN_NOISE (1u << 19)
+
+/* What makes a value differ between the particles of a system. */
+#define KILN_VALUE_OF_PARTICLES                                                                    \
+    (1u << KILN_CLOCK_LIFE | 1u << KILN_CLOCK_AGE | 1u << KILN_CLOCK_SPEED |                       \
+     1u << KILN_CLOCK_HEIGHT | 1u << KILN_CLOCK_DISTANCE | 1u << KILN_CLOCK_RANDOM |               \
+     KILN_VALUE_USES_OWN_NOISE)
+
+/* What makes a value differ between the frames of a clip, for a particle whose clocks stand. */
+#define KILN_VALUE_OF_TIME (1u << KILN_CLOCK_TIME | 1u << KILN_CLOCK_NOISE)
+
+/* Return a bit mask of what a value uses, in all of its parts; 0 for a constant. */
+uint32_t kiln_value_uses(const float4 *keys, const struct kiln_value *value);
+uint32_t kiln_value3_uses(const float4 *keys, const struct kiln_value3 *value);
+uint32_t kiln_range_uses(const float4 *keys, const struct kiln_range *range);
+
+/* Return a limit that a value never goes over, or below: its greatest or least key, and for values
+ * of several parts the limit that follows from those of the parts. */
+float kiln_value_most(const float4 *keys, const struct kiln_value *value);
+float kiln_value_least(const float4 *keys, const struct kiln_value *value);
 
 #endif

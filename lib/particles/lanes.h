@@ -27,6 +27,7 @@ struct kiln_lanes {
     alignas(64) uint32_t words[KILN_RECORD_WORDS][KILN_LANES]; /* words of the records */
     kiln_floats age_s, life_s;
     kiln_floats born_s, life_min_s, life_max_s; /* the times that life_s is computed from */
+    uint32_t stream[KILN_LANES];                /* random numbers of each particle */
 };
 
 static inline float3 kiln_get3(const struct kiln_floats3 *from, uint32_t i)
@@ -71,6 +72,29 @@ static inline void kiln_lanes_store(const struct kiln_lanes *lanes, struct kiln_
         records[i] = kiln_lanes_record(lanes, i);
 }
 
+/* Holds the clocks of all lanes (struct value_clocks). A pointer may be NULL where no value has that
+ * clock. */
+struct kiln_lane_clocks {
+    const float *time_s; /* NULL: same_time_s, of all lanes */
+    float same_time_s;
+    const float *life, *age_s;
+    const struct kiln_floats3 *position, *velocity;
+    const uint32_t *stream;
+    uint32_t system;
+};
+
+static inline struct value_clocks kiln_lane_clocks_at(const struct kiln_lane_clocks *c, uint32_t i)
+{
+    struct value_clocks one =
+        value_clocks_at(c->time_s ? c->time_s[i] : c->same_time_s, c->system);
+    one.life = c->life ? c->life[i] : 0.0f;
+    one.age_s = c->age_s ? c->age_s[i] : 0.0f;
+    one.height = c->position ? c->position->y[i] : 0.0f;
+    one.velocity = c->velocity ? kiln_get3(c->velocity, i) : one.velocity;
+    one.stream = c->stream ? c->stream[i] : 0u;
+    return one;
+}
+
 /* Computes value_at_key for all lanes, one key after another. */
 static inline void kiln_lanes_evaluate(const float4 *keys, struct kiln_value v, const float *x,
                                        float *y)
@@ -96,18 +120,84 @@ static inline void kiln_lanes_evaluate(const float4 *keys, struct kiln_value v, 
     }
 }
 
-/* Computes value_at for all lanes. x holds the time of each lane on `clock`; a value with another
- * clock is the same for all lanes and evaluated at time_s. */
-static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, uint32_t clock,
-                                     const float *x, float time_s, float *y)
+/* Computes value_clock for all lanes. */
+static inline void kiln_lanes_clock(const float4 *keys, struct kiln_value v,
+                                    const struct kiln_lane_clocks *c, float *x)
 {
-    if (v.count != 0 && v.clock == clock) {
+    const uint32_t draw = RANDOM_VALUES + VALUE_DRAW(v.how);
+    if (VALUE_CLOCK(v.how) == KILN_CLOCK_RANDOM && c->stream) {
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            x[i] = random_unit(c->stream[i], draw);
+        return;
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        x[i] = value_clock(keys, v, kiln_lane_clocks_at(c, i));
+}
+
+/* Computes value_curve_at of a value's clock for all lanes. */
+static inline void kiln_lanes_curve(const float4 *keys, struct kiln_value v,
+                                    const struct kiln_lane_clocks *c, float *y)
+{
+    kiln_floats x;
+    kiln_lanes_clock(keys, v, c, x);
+    if (VALUE_EASE(v.how) < VALUE_SMOOTH && VALUE_REPEAT(v.how) == VALUE_HOLDS) {
         kiln_lanes_evaluate(keys, v, x, y);
         return;
     }
-    const float all = value_at(keys, v, time_s, 0.0f);
     for (uint32_t i = 0; i < KILN_LANES; i++)
-        y[i] = all;
+        y[i] = value_curve_at(keys, v, x[i]);
+}
+
+/* Computes value_of_keys for all lanes. */
+static inline void kiln_lanes_parts(const float4 *keys, struct kiln_value v,
+                                    const struct kiln_lane_clocks *c, float *y)
+{
+    kiln_floats other;
+    kiln_lanes_curve(keys, v, c, y);
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        y[i] = 0.0f + y[i];
+    for (uint32_t part = 1; part < VALUE_ENTRIES; part++) {
+        if (!(v.how & (part == 1 ? VALUE_TIMES : VALUE_PLUS)))
+            continue;
+        const struct kiln_value one = value_part(keys, v, part);
+        if (one.count != 0)
+            kiln_lanes_curve(keys, one, c, other);
+        for (uint32_t i = 0; i < KILN_LANES; i++) {
+            const float change = one.count != 0 ? other[i] : one.constant;
+            y[i] = part == 1 ? y[i] * change : y[i] + change;
+        }
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        y[i] = value_limited(keys, v, y[i]);
+}
+
+/* Returns whether a value that has keys shows the same in all lanes, which have the same time. */
+static inline bool kiln_value_is_shared(struct kiln_value v)
+{
+    const bool is_plain = !VALUE_NOT_PLAIN(v.how);
+    return v.count == 0 || (is_plain && VALUE_CLOCK(v.how) == KILN_CLOCK_TIME);
+}
+
+/* Computes value_at for all lanes. */
+static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v,
+                                     const struct kiln_lane_clocks *c, float *y)
+{
+    if (v.count == 0 || (!c->time_s && kiln_value_is_shared(v))) {
+        const float all = value_at(keys, v, value_clocks_at(c->same_time_s, c->system));
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            y[i] = all;
+        return;
+    }
+    if (VALUE_NOT_PLAIN(v.how)) {
+        kiln_lanes_parts(keys, v, c, y);
+        return;
+    }
+    const uint32_t clock = VALUE_CLOCK(v.how);
+    if (clock == KILN_CLOCK_LIFE || clock == KILN_CLOCK_TIME) {
+        kiln_lanes_evaluate(keys, v, clock == KILN_CLOCK_LIFE ? c->life : c->time_s, y);
+        return;
+    }
+    kiln_lanes_curve(keys, v, c, y);
 }
 
 /* Computes particle_life_s, and particle_age_before. */
@@ -117,13 +207,17 @@ static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *
 {
     for (uint32_t i = 0; i < KILN_LANES; i++)
         lanes->born_s[i] = particle_birth_time(derived, kiln_lanes_record(lanes, i));
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        lanes->stream[i] = particle_stream(derived, kiln_lanes_record(lanes, i));
+    const struct kiln_lane_clocks birth = {
+        .time_s = lanes->born_s, .stream = lanes->stream, .system = derived.random_key};
     const struct kiln_range *life = &derived.life;
-    kiln_lanes_values(keys, life->min, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->life_min_s);
-    kiln_lanes_values(keys, life->max, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->life_max_s);
+    kiln_lanes_values(keys, life->min, &birth, lanes->life_min_s);
+    kiln_lanes_values(keys, life->max, &birth, lanes->life_max_s);
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_particle p = kiln_lanes_record(lanes, i);
-        lanes->life_s[i] = random_between(particle_stream(derived, p), RANDOM_LIFE,
-                                          lanes->life_min_s[i], lanes->life_max_s[i]);
+        lanes->life_s[i] = random_between(lanes->stream[i], RANDOM_LIFE, lanes->life_min_s[i],
+                                          lanes->life_max_s[i]);
         lanes->age_s[i] = particle_age_before(p, step, back, derived.dt_s);
     }
 }

@@ -49,12 +49,32 @@ static float longest_life_s(const struct kiln_scene *scene, uint32_t system)
     return kiln_scene_value_max(scene, &scene->systems[system].emit.life.max) * (1 + 0x1p-20f);
 }
 
+/* Returns a limit of the integral of a rate over the whole life. The parts of a rate are not
+ * negative. */
+static double most_of_a_life(const struct kiln_scene *scene, const struct kiln_value *rate)
+{
+    if (rate->count == 0)
+        return (double)rate->constant;
+    const struct kiln_value times = rate->how & VALUE_TIMES
+                                        ? value_part(scene->keys, *rate, 1)
+                                        : (struct kiln_value){.constant = 1};
+    const struct kiln_value plus = rate->how & VALUE_PLUS ? value_part(scene->keys, *rate, 2)
+                                                          : (struct kiln_value){.constant = 0};
+    struct kiln_value curve = *rate;
+    curve.how &= ~(VALUE_TIMES | VALUE_PLUS);
+    const double sum = VALUE_CLOCK(rate->how) == KILN_CLOCK_LIFE
+                           ? (double)value_sum_of_keys(scene->keys, curve, 1)
+                           : (double)kiln_value_most(scene->keys, &curve);
+    return sum * (double)kiln_value_most(scene->keys, &times) +
+           (double)kiln_value_most(scene->keys, &plus);
+}
+
 uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_parent *parent)
 {
     if (parent->event != KILN_EVENT_TRAIL)
         return parent->count;
     /* child j is born if the float sum * life, which rises with the life, passes j */
-    double sum = (double)value_sum_at(scene->keys, parent->rate, 1);
+    double sum = most_of_a_life(scene, &parent->rate);
     double most = sum * (double)longest_life_s(scene, parent->system) * (1 + 0x1p-20);
     return (uint64_t)floor(most) + 1;
 }

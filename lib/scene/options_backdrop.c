@@ -10,9 +10,9 @@
 
 /* The options of how particles bounce off an object and slide along it. */
 #define SURFACE_FACTORS                                                                            \
-    VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                      \
+    VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME(8), "1",                      \
           "Factor on the restitution of particles that bounce off it."),                           \
-        VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, TIME, "1",                         \
+        VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, TIME(9), "1",                         \
               "Factor on the friction of particles that touch it.")
 
 #define COLLIDING                                                                                  \
@@ -21,15 +21,15 @@
         SURFACE_FACTORS
 
 #define REFLECTANCE                                                                                \
-    COLOR(LOOK, "color", color, 1, TIME, "[0.35, 0.34, 0.33]",                                     \
+    COLOR(LOOK, "color", color, 1, TIME(10), "[0.35, 0.34, 0.33]",                                     \
           "Fraction of the incoming light that it reflects.")
 
 TABLE(box) = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(11), "[0, 0.5, 0]",
            "Centre of the box."),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]",
+    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME(12), "[1, 1, 1]",
            "Lengths of the edges."),
-    VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+    VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME(13),
            "[0, 0, 0]",
            "Angles about x, then y, then z. In each step, the box turns the shorter way "
            "from its old angles to its new ones."),
@@ -39,9 +39,9 @@ TABLE(box) = {
 };
 
 TABLE(sphere) = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(14), "[0, 0.5, 0]",
            "Centre of the sphere."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(15), "0.5 m",
           "Radius of the sphere."),
     REFLECTANCE,
     COLLIDING,
@@ -49,13 +49,13 @@ TABLE(sphere) = {
 };
 
 TABLE(cylinder) = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(16), "[0, 0.5, 0]",
            "Centre of the cylinder."),
-    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(17), "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(18), "0.5 m",
           "Radius of the cylinder."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(19), "1 m",
           "Height along the axis, from end to end."),
     REFLECTANCE,
     COLLIDING,
@@ -63,13 +63,13 @@ TABLE(cylinder) = {
 };
 
 TABLE(capsule) = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(20), "[0, 1, 0]",
            "Centre of the capsule."),
-    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(21), "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(22), "0.5 m",
           "Radius of the side and of the round ends."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(23), "1 m",
           "Height along the axis, between the centres of the round ends."),
     REFLECTANCE,
     COLLIDING,
@@ -77,12 +77,12 @@ TABLE(capsule) = {
 };
 
 TABLE(cone) = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(24), "[0, 0.5, 0]",
            "Centre of the cone, halfway between its base and its tip."),
-    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(25), "[0, 1, 0]",
            "Direction from the base to the tip, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the base."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(26), "0.5 m", "Radius of the base."),
+    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(27), "1 m",
           "Height along the axis, from the base to the tip."),
     REFLECTANCE,
     COLLIDING,
@@ -90,9 +90,9 @@ TABLE(cone) = {
 };
 
 TABLE(plane) = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(28), "[0, 0, 0]",
            "A point of the plane. The plane turns about this point."),
-    VECTOR(MOTION, "normal", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "normal", axis, KILN_PLAIN, -FAR, FAR, TIME(29), "[0, 1, 0]",
            "Normal of the plane, of any length but 0. It points away from the solid side."),
     REFLECTANCE,
     BOOLEAN(LOOK, "visible", visible, "true",
@@ -158,11 +158,11 @@ TABLE(mesh) = {
     {ROW(MOTION, "file", mesh, file, NULL,
          "An OBJ, glTF, GLB, PLY or STL file of triangles, in metres and y up. Its materials are "
          "not drawn.")},
-    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(30), "[0, 0, 0]",
            "Position of the file's origin."),
-    VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+    VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME(31),
            "[0, 0, 0]", "Angles about x, then y, then z."),
-    VALUE(MOTION, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1",
+    VALUE(MOTION, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME(32), "1",
           "Metres per unit of the file."),
     SWITCH(MOTION, "animation", animation, animation.enabled, "none",
            "An animation of the glTF or GLB file: it moves nodes, bones that vertices follow, and "
@@ -181,7 +181,7 @@ TABLE(mesh) = {
     INTEGER(MOTION, "cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
             "Cells of the field or the volume along the mesh's longest edge. Particles may miss "
             "parts that are thinner than a cell."),
-    VECTOR(MOTION, "heading", heading, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",
+    VECTOR(MOTION, "heading", heading, KILN_PLAIN, -FAR, FAR, TIME(33), "[0, -1, 0]",
            "For collider `volume`: direction in which most particles fly; a vector of any length "
            "but 0. Of the planes that face this direction, a cell keeps the one that particles "
            "meet first (Drone 2007, 7.5.2.3)."),
@@ -265,10 +265,10 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
 
 /* The options that a point light and a spot share. */
 #define SMALL_LIGHT                                                                                \
-    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",                  \
+    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME(34), "[0, 2, 0]",                  \
            "Position of the light."),                                                              \
-        COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),           \
-        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",                      \
+        COLOR(LOOK, "color", color, 1000000, TIME(35), "1", "Light that arrives 1 m away."),           \
+        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME(36), "0.2 m",                      \
               "Radius of the light. Near the light, it keeps the brightness finite; it softens "   \
               "shadows."),                                                                         \
         BOOLEAN(LOOK, "shadow", shadow, "true",                                                    \
@@ -276,7 +276,7 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
                 "except those that contain its centre.")
 
 #define LIGHT_DIRECTION                                                                            \
-    VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",                \
+    VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME(37), "[0, -1, 0]",                \
            "Direction in which the light shines, of any length but 0.")
 
 TABLE(point) = {
@@ -287,26 +287,26 @@ TABLE(point) = {
 TABLE(spot) = {
     SMALL_LIGHT,
     LIGHT_DIRECTION,
-    VALUE(LOOK, "angle", angle, KILN_ANGLE, KILN_DEG(1), KILN_DEG(180), TIME, "30 deg",
+    VALUE(LOOK, "angle", angle, KILN_ANGLE, KILN_DEG(1), KILN_DEG(180), TIME(38), "30 deg",
           "Angle between the light's direction and the edge of its cone: half of the opening."),
-    VALUE(LOOK, "softness", softness, KILN_FRACTION, 0, 1, TIME, "0.2",
+    VALUE(LOOK, "softness", softness, KILN_FRACTION, 0, 1, TIME(39), "0.2",
           "Part of the angle, inwards from the edge of the cone, in which the light fades."),
     END,
 };
 
 TABLE(rectangle) = {
-    VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",
+    VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME(40), "[0, 2, 0]",
            "Centre of the rectangle."),
-    VALUE(LOOK, "width", width, KILN_METRES, 0.01, 1000, TIME, "1 m",
+    VALUE(LOOK, "width", width, KILN_METRES, 0.01, 1000, TIME(41), "1 m",
           "Length of the edges across `up`."),
-    VALUE(LOOK, "height", height, KILN_METRES, 0.01, 1000, TIME, "1 m",
+    VALUE(LOOK, "height", height, KILN_METRES, 0.01, 1000, TIME(42), "1 m",
           "Length of the edges along `up`."),
     LIGHT_DIRECTION,
-    VECTOR(LOOK, "up", up, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(LOOK, "up", up, KILN_PLAIN, -FAR, FAR, TIME(43), "[0, 1, 0]",
            "Direction of the upper edge, as seen from the centre. The part of it along `direction` "
            "does not count. If nothing else is left, the upper edge is towards -z, or towards y if "
            "`direction` is along z."),
-    COLOR(LOOK, "color", color, 1000000, TIME, "1",
+    COLOR(LOOK, "color", color, 1000000, TIME(44), "1",
           "Radiance of the rectangle's front. From afar and from in front, it gives as much light "
           "as a point light of this colour times the area in m^2, divided by pi."),
     BOOLEAN(LOOK, "shadow", shadow, "true",
@@ -340,64 +340,64 @@ ITEM_OF_KINDS(light, light_kinds, kind, .name = "light");
 #define FILLS struct kiln_backdrop
 
 TABLE(sky) = {
-    COLOR(LOOK, "top", sky_top, 1000, TIME, "[0.02, 0.03, 0.05]", "Colour overhead."),
-    COLOR(LOOK, "horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "Colour at eye level."),
+    COLOR(LOOK, "top", sky_top, 1000, TIME(45), "[0.02, 0.03, 0.05]", "Colour overhead."),
+    COLOR(LOOK, "horizon", sky_horizon, 1000, TIME(46), "[0.12, 0.13, 0.16]", "Colour at eye level."),
     {ROW(LOOK, "image", picture, sky_image, "none",
          "The whole sphere around the scene as one picture, left to right and top to bottom, in "
          "place of the gradient. Its middle lies towards -z. Averages of its colours over parts of "
          "the sky light the scene. Files of floats, such as HDR and EXR, have light that is "
          "brighter than white.")},
-    VALUE(LOOK, "rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
+    VALUE(LOOK, "rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME(47),
           "0 deg", "Angle by which the image is turned about y."),
-    VALUE(LOOK, "intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME, "1",
+    VALUE(LOOK, "intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME(48), "1",
           "Factor on the image."),
     END,
 };
 
 TABLE(floor_rows) = {
-    COLOR(LOOK, "color", floor_color, 1, TIME, "[0.35, 0.34, 0.33]",
+    COLOR(LOOK, "color", floor_color, 1, TIME(49), "[0.35, 0.34, 0.33]",
           "Fraction of the incoming light that it reflects."),
-    VALUE(MOTION, "height", floor_height, KILN_METRES, -FAR, FAR, TIME, "0 m",
+    VALUE(MOTION, "height", floor_height, KILN_METRES, -FAR, FAR, TIME(50), "0 m",
           "Height of the floor. It may vary over time only if `collide` is false."),
-    VALUE(LOOK, "checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
+    VALUE(LOOK, "checker", floor_checker, KILN_METRES, 0, FAR, TIME(51), "0 m",
           "Edge length of lighter and darker squares; 0 is a plain floor."),
     {ROW(LOOK, "image", picture, floor_image, "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
-    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
-    VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
+    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME(52), "1 m", "Width of the picture."),
+    VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME(53), "0",
           "Strength of the floor's reflection; 1 reflects as water does. The floor mirrors sky, "
           "lights and objects except meshes. Of particles it mirrors only the light that they shed "
           "(look.light)."),
-    VALUE(LOOK, "roughness", floor_roughness, KILN_PLAIN, 0, 1, TIME, "0.3",
+    VALUE(LOOK, "roughness", floor_roughness, KILN_PLAIN, 0, 1, TIME(54), "0.3",
           "How widely `gloss` spreads lights."),
-    VALUE(LOOK, "wave_height", floor_wave_height, KILN_METRES, 0, 100, TIME, "0 m",
+    VALUE(LOOK, "wave_height", floor_wave_height, KILN_METRES, 0, 100, TIME(55), "0 m",
           "Height, from trough to crest, of waves that tilt the reflection of `gloss`. The floor "
           "itself stays flat."),
-    VALUE(LOOK, "wave_length", floor_wave_length, KILN_METRES, 0.001, 10000, TIME, "1 m",
+    VALUE(LOOK, "wave_length", floor_wave_length, KILN_METRES, 0.001, 10000, TIME(56), "1 m",
           "Length of the longest waves. Smaller waves ride on them."),
     BOOLEAN(MOTION, "collide", floor_collide, "true",
             "Particles of systems that collide bounce off it."),
-    VALUE(MOTION, "restitution", floor_restitution, KILN_FRACTION, 0, 1, TIME, "1",
+    VALUE(MOTION, "restitution", floor_restitution, KILN_FRACTION, 0, 1, TIME(57), "1",
           "Factor on the restitution of particles that bounce off it."),
-    VALUE(MOTION, "friction", floor_friction, KILN_PLAIN, 0, 100, TIME, "1",
+    VALUE(MOTION, "friction", floor_friction, KILN_PLAIN, 0, 100, TIME(58), "1",
           "Factor on the friction of particles that touch it."),
     END,
 };
 
 TABLE(sun) = {
-    VECTOR(LOOK, "direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME, "[0.5, 1, 0.3]",
+    VECTOR(LOOK, "direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME(59), "[0.5, 1, 0.3]",
            "Direction towards the sun, of any length but 0."),
-    COLOR(LOOK, "color", sun_color, 1000000, TIME, "[0.8, 0.75, 0.65]",
+    COLOR(LOOK, "color", sun_color, 1000000, TIME(60), "[0.8, 0.75, 0.65]",
           "Light of the sun; 0 is no sun."),
-    VALUE(LOOK, "size", sun_size, KILN_ANGLE, 0, KILN_DEG(30), TIME, "0 deg",
+    VALUE(LOOK, "size", sun_size, KILN_ANGLE, 0, KILN_DEG(30), TIME(61), "0 deg",
           "Angular diameter of the sun. A larger sun gives softer edges of shadows."),
-    VALUE(LOOK, "disc", sun_disc, KILN_PLAIN, 0, 1000000, TIME, "0",
+    VALUE(LOOK, "disc", sun_disc, KILN_PLAIN, 0, 1000000, TIME(62), "0",
           "Brightness of the sun's disc in the sky, as a factor on `color`; 0 draws no disc. The "
           "disc is as wide as `size`. A glossy floor mirrors the sun in any case."),
-    VALUE(LOOK, "glow", sun_glow, KILN_PLAIN, 0, 1000000, TIME, "0",
+    VALUE(LOOK, "glow", sun_glow, KILN_PLAIN, 0, 1000000, TIME(63), "0",
           "Brightness of the sky at the sun's middle beside that of the disc, as a factor on "
           "`color`. This glow gets weaker away from the sun, and colours the haze as well."),
-    VALUE(LOOK, "glow_size", sun_glow_size, KILN_ANGLE, KILN_DEG(0.01), KILN_DEG(90), TIME, "6 deg",
+    VALUE(LOOK, "glow_size", sun_glow_size, KILN_ANGLE, KILN_DEG(0.01), KILN_DEG(90), TIME(64), "6 deg",
           "Angle away from the sun at which a third of the glow is left."),
     END,
 };
@@ -408,7 +408,7 @@ PUBLIC_TABLE(kiln_options_backdrop) = {
     GROUP(LOOK, "sky", sky, "The sky: a gradient or an image."),
     SWITCH(IF_PARTICLES_HIT_FLOOR, "floor", floor_rows, floor_enabled, "{}", "An endless plane."),
     GROUP(LOOK, "sun", sun, "The sun, the one light with a shadow."),
-    VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
+    VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME(65), "0.02",
           "How fast, per metre of distance, the floor fades into the horizon."),
     LIST(MOTION, "objects", objects, object, object_count, "[]", "Objects of the scene."),
     LIST(LOOK, "lights", lights, light, light_count, "[]", "Lights besides the sun."),

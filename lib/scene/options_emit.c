@@ -8,15 +8,15 @@
 
 /* Options that every shape has. `spread` is the default of `angle`. */
 #define PLACE(spread)                                                                              \
-    VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",                    \
+    VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, BIRTH(1), "[0, 0, 0]",                    \
            "Centre of the shape. When it moves, births are spread along its way."),                \
-        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",           \
+        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), "[0, 1, 0]",           \
                "Mean direction in which particles start, of any length but 0."),                   \
-        VALUE(MOTION, "angle", angle, KILN_ANGLE, 0, KILN_DEG(180), TIME, spread,                  \
+        VALUE(MOTION, "angle", angle, KILN_ANGLE, 0, KILN_DEG(180), BIRTH(3), spread,                  \
               "Largest angle between a particle's direction and the mean direction.")
 
 #define TURN                                                                                       \
-    VALUE(MOTION, "turn", turn, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME,       \
+    VALUE(MOTION, "turn", turn, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), BIRTH(4),       \
           "0 deg/s",                                                                               \
           "Angular speed at which the shape turns about its direction. Particles get the "         \
           "velocity that the turning shape has where they are born.")
@@ -28,7 +28,7 @@ TABLE(point) = {
 
 TABLE(sphere) = {
     PLACE("0 deg"),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0.1 m", "Radius."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, BIRTH(5), "0.1 m", "Radius."),
     BOOLEAN(MOTION, "outward", outward, "false",
             "Particles start away from the origin instead of along the direction."),
     BOOLEAN(MOTION, "surface", surface, "false", "Particles are born on the surface only."),
@@ -38,7 +38,7 @@ TABLE(sphere) = {
 
 TABLE(box) = {
     PLACE("0 deg"),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, TIME, "[1, 1, 1]", "Lengths of the edges."),
+    VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, BIRTH(6), "[1, 1, 1]", "Lengths of the edges."),
     BOOLEAN(MOTION, "surface", surface, "false", "Particles are born on the six faces only."),
     TURN,
     END,
@@ -46,7 +46,7 @@ TABLE(box) = {
 
 TABLE(disc) = {
     PLACE("0 deg"),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, BIRTH(7), "0.5 m",
           "Radius of the disc, which faces the direction."),
     BOOLEAN(MOTION, "surface", surface, "false", "Particles are born on the rim only."),
     TURN,
@@ -55,7 +55,7 @@ TABLE(disc) = {
 
 TABLE(ring) = {
     PLACE("0 deg"),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, BIRTH(8), "0.5 m",
           "Radius of the ring, which faces the direction."),
     TURN,
     END,
@@ -64,7 +64,7 @@ TABLE(ring) = {
 TABLE(cone) = {
     PLACE("15 deg"),
     VALUE(
-        MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0 m",
+        MOTION, "radius", radius, KILN_METRES, 0, FAR, BIRTH(9), "0 m",
         "Radius of the cone's small end, a disc in which particles are born. They start along the "
         "lines from the tip that the cone would have without this disc."),
     END,
@@ -73,7 +73,7 @@ TABLE(cone) = {
 TABLE(line) = {
     PLACE("0 deg"),
     VECTOR(
-        MOTION, "span", size, KILN_METRES, -FAR, FAR, TIME, "[1, 0, 0]",
+        MOTION, "span", size, KILN_METRES, -FAR, FAR, BIRTH(10), "[1, 0, 0]",
         "Vector from one end of the line to the other. The origin is in the middle of the line."),
     INTEGER(
         MOTION, "nozzles", nozzles, 0, 65536, "0",
@@ -136,7 +136,7 @@ TABLE(bounce) = {
 };
 
 TABLE(trail) = {
-    VALUE(MOTION, "rate", parent.rate, KILN_PER_SECOND, 0, 1e6, KILN_ALLOW_LIFE, "20",
+    VALUE(MOTION, "rate", parent.rate, KILN_PER_SECOND, 0, 1e6, SUMMED(11), "20",
           "Particles born a second while a particle of the parent lives. The rate may vary over "
           "the life of the parent's particle."),
     ALIGN(aligns_in_flight, TO_VELOCITY),
@@ -177,19 +177,19 @@ TABLE(emit_options) = {
     SWITCH(MOTION, "parent", parent, parent.enabled, "none",
            "The particles are born of another system's particles, not by `rate` and `bursts`. The "
            "shape `from` then lies around the parent's particle."),
-    VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
+    VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
          "Particles that are born at once: a map of clip times, in seconds, to their numbers. The "
          "frame at 0 s shows those of 0 s, at age 0; another frame shows the bursts before its "
          "time."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), COUNTED(bursts, burst_count)},
-    RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, TIME, "1 s",
+    RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, BIRTH(13), "1 s",
           "How long a particle lives. The value is drawn at its birth."),
-    RANGE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, TIME, "1 m/s",
+    RANGE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, BIRTH(14), "1 m/s",
           "Speed of a particle along its direction. The value is drawn at its birth."),
     KIND(MOTION, "from", shapes, shape, "{point: {}}",
          "The shape in which particles are born, and the directions in which they start."),
-    VALUE(MOTION, "inherit", inherit, KILN_FRACTION, 0, 1, TIME, "0",
+    VALUE(MOTION, "inherit", inherit, KILN_FRACTION, 0, 1, BIRTH(15), "0",
           "Fraction of the velocity of the emitter, or of the parent's particle, that a particle "
           "gets at its birth."),
     END,
@@ -209,18 +209,18 @@ TABLE(collide_options) = {
         MOTION, "mode", mode, collide_modes, "swept",
         "`swept` finds the point of impact on the way of a particle. `clamp` moves a particle that "
         "is inside an object to the nearest face."),
-    VALUE(MOTION, "randomness", randomness, KILN_FRACTION, 0, 1, BOTH, "0",
+    VALUE(MOTION, "randomness", randomness, KILN_FRACTION, 0, 1, LIFE(16), "0",
           "0 reflects a particle like a mirror. 1 sends it into any direction away from the "
           "surface."),
     VALUE(
-        MOTION, "slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
+        MOTION, "slowdown", slowdown, KILN_FRACTION, 0, 1, LIFE(17), "0.5",
         "Factor on the speed at each impact, applied after restitution, friction and randomness. 1 "
         "keeps the speed, 0 stops the particle."),
     VALUE(
-        MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, BOTH, "1",
+        MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, LIFE(18), "1",
         "Fraction of the speed towards a surface that a particle keeps when it bounces. It counts "
         "before `randomness` turns the velocity."),
-    VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, BOTH, "0",
+    VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, LIFE(19), "0",
           "Coulomb's coefficient of friction. An impact reduces the speed along the surface by at "
           "most this factor times the change of the speed towards the surface."),
     BOOLEAN(MOTION, "dies", dies, "false", "A particle ends at its first impact, like rain."),
@@ -240,11 +240,11 @@ TABLE(paint_options) = {
     CHOICE(MOTION, "when", when, paint_times, "impact",
            "`impact` paints in each step where a particle bounces or ends. `near` paints all "
            "surface within the radius of a particle at the end of each step."),
-    RANGE(MOTION, "radius", radius, KILN_METRES, 0.0001, 1000, TIME, "3 cm",
+    RANGE(MOTION, "radius", radius, KILN_METRES, 0.0001, 1000, BIRTH(20), "3 cm",
           "Radius of the splat that a particle paints, drawn once for each particle."),
-    VALUE(MOTION, "opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1",
+    VALUE(MOTION, "opacity", opacity, KILN_FRACTION, 0, 1, LIFE(21), "1",
           "Opacity in the middle of a splat."),
-    VALUE(MOTION, "soft", soft, KILN_FRACTION, 0, 1, BOTH, "0.3",
+    VALUE(MOTION, "soft", soft, KILN_FRACTION, 0, 1, LIFE(22), "0.3",
           "Outer part of a splat's radius over which the splat fades."),
     END,
 };

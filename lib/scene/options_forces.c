@@ -1,22 +1,22 @@
 /* This file has the option tables of forces. Each kind of force has a table of members, and one row
  * or two in kiln_force_kinds: `curl: {}` can also be written `wind: {field: curl}`.
  *
- * scene/rows.h defines MOTION, TIME, BOTH and FAR. */
+ * scene/rows.h defines MOTION, TIME, LIFE and FAR. */
 #include "scene/rows.h"
 
 #define FILLS struct kiln_force
 
 TABLE(gravity) = {
-    VECTOR(MOTION, "acceleration", acceleration, KILN_ACCELERATION, -10000, 10000, BOTH,
+    VECTOR(MOTION, "acceleration", acceleration, KILN_ACCELERATION, -10000, 10000, LIFE(46),
            "[0, -9.81, 0]",
            "Acceleration of the particles. It points upwards for gas that is lighter than air."),
     END,
 };
 
 TABLE(drag) = {
-    VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
+    VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, LIFE(47), "0.5",
           "Linear drag: the deceleration is `strength` times the speed."),
-    VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
+    VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, LIFE(48), "0",
           "Quadratic drag: the deceleration is `quadratic` times the square of the speed. Air "
           "slows all but the smallest and slowest particles this way."),
     END,
@@ -36,9 +36,9 @@ static const char *const modes[] = {
         "smaller steps accelerate particles more.")
 
 TABLE(wind) = {
-    VECTOR(MOTION, "velocity", air, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
+    VECTOR(MOTION, "velocity", air, KILN_SPEED, -10000, 10000, LIFE(49), "[1, 0, 0]",
            "Velocity of the air."),
-    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, LIFE(50), "1",
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
@@ -46,13 +46,13 @@ TABLE(wind) = {
 };
 
 TABLE(curl) = {
-    VALUE(MOTION, "strength", strength, KILN_SPEED, 0, 10000, BOTH, "1 m/s",
+    VALUE(MOTION, "strength", strength, KILN_SPEED, 0, 10000, LIFE(51), "1 m/s",
           "Typical velocity of the air in the eddies."),
-    VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, TIME(52), "1 m",
           "Size of the largest eddies."),
-    VECTOR(MOTION, "drift", drift, KILN_SPEED, -10000, 10000, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "drift", drift, KILN_SPEED, -10000, 10000, TIME(53), "[0, 0, 0]",
            "Velocity at which the whole pattern of eddies moves."),
-    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, LIFE(54), "1",
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Number of layers of ever smaller eddies."),
@@ -64,9 +64,9 @@ TABLE(grid) = {
     {ROW(MOTION, "file", grid, file, NULL,
          "A grid of air velocities. They are interpolated between the points of the grid. Outside "
          "of the grid, the air moves as at the nearest edge.")},
-    VALUE(MOTION, "strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1",
+    VALUE(MOTION, "strength", strength, KILN_PLAIN, -1000, 1000, LIFE(55), "1",
           "Factor on the velocities."),
-    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, LIFE(56), "1",
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
@@ -82,15 +82,15 @@ static const char *const falloffs[] = {
 };
 
 TABLE(attract) = {
-    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(57), "[0, 0, 0]",
            "Point that particles are drawn to."),
-    VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
+    VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, LIFE(58), "1 m/s^2",
           "Acceleration at a distance of 1 m, before the softening by `radius`. A negative value "
           "pushes particles away."),
     CHOICE(MOTION, "falloff", falloff, falloffs, "inverse_square",
            "How the acceleration falls off with the distance: inverse_square like gravity, "
            "inverse, constant, or linear like a spring."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(59), "0.1 m",
           "Softening radius (Plummer): at the distance d, the acceleration is strength * d / (d^2 "
           "+ radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. The acceleration is 0 at the "
           "position itself. At a distance of three radii it is 15, 10 or 5 % less than without "
@@ -105,24 +105,24 @@ static const char *const profiles[] = {
 };
 
 TABLE(vortex) = {
-    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(60), "[0, 0, 0]",
            "A point of the axis."),
-    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(61), "[0, 1, 0]",
            "Direction of the axis, of any length. The air turns anticlockwise when the axis points "
            "at the viewer."),
-    VALUE(MOTION, "speed", speed, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
+    VALUE(MOTION, "speed", speed, KILN_SPEED, -10000, 10000, LIFE(62), "1 m/s",
           "Speed of the air around the axis at the edge of the core, where it is fastest."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the core."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(63), "0.5 m", "Radius of the core."),
     CHOICE(MOTION, "profile", profile, profiles, "rankine",
            "rankine: the core turns like a solid body, and the air outside of it is slower with "
            "the distance. lamb_oseen: the change from core to outside is smooth."),
-    VALUE(MOTION, "inward", inward, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
+    VALUE(MOTION, "inward", inward, KILN_SPEED, -10000, 10000, TIME(64), "0 m/s",
           "Speed of the air towards the axis at the edge of the core. It varies with the distance "
           "as `speed` does."),
-    VALUE(MOTION, "lift", lift, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
+    VALUE(MOTION, "lift", lift, KILN_SPEED, -10000, 10000, TIME(65), "0 m/s",
           "Speed of the air along the axis, measured on the axis. Half of it is left at the edge "
           "of the core."),
-    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, LIFE(66), "1",
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
@@ -130,7 +130,7 @@ TABLE(vortex) = {
 };
 
 TABLE(limit) = {
-    VALUE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
+    VALUE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, LIFE(67), "10 m/s",
           "Highest speed. Each step slows faster particles down to it."),
     END,
 };

@@ -1,8 +1,8 @@
 /* This file has the tables of the options `look` of a system in a scene: how its particles look.
  * options_emit.c includes them in the table of a system; the parser of scenes, `kiln help scene`
  * and the schema read them. Each row says whether the option changes pixels alone (LOOK) or, under
- * a condition, the motion as well (IF_..., see parts.h), and whether a value may vary over the TIME
- * of the clip or over BOTH that and a particle's life. */
+ * a condition, the motion as well (IF_..., see parts.h), and over which clocks a value may vary
+ * (scene/rows.h). */
 #include "scene/rows.h"
 
 #define FILLS struct kiln_look
@@ -32,7 +32,7 @@ static const char *const line_ends[] = {
 
 TABLE(point) = {
     VALUE(
-        LOOK, "size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
+        LOOK, "size", point_size, KILN_PIXELS, 0, 10000, DRAWN(23), "0 px",
         "Diameter of a point in pixels; 0 uses look.size, in metres. A point of less than a pixel "
         "is drawn a pixel wide, and fainter."),
     BOOLEAN(LOOK, "round", point_round, "true", "true draws a disc, false a square."),
@@ -40,7 +40,7 @@ TABLE(point) = {
 };
 
 TABLE(line) = {
-    VALUE(LOOK, "width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px",
+    VALUE(LOOK, "width", line_width, KILN_PIXELS, 0, 1000, DRAWN(24), "1.5 px",
           "Width of a line in pixels. A line of less than a pixel is drawn a pixel wide, and "
           "fainter."),
     CHOICE(LOOK, "to", line_to, line_ends, "velocity",
@@ -84,7 +84,7 @@ TABLE(sphere) = {
         "particles (collide.spin of an interaction); elsewhere look.rotation and look.spin turn it "
         "about an axis chosen at random for each particle."),
     INTEGER(LOOK, "segments", sphere.segments, 1, 8, "3", "Number of segments of each colour."),
-    COLOR(LOOK, "color", sphere.color, 1000, BOTH, "1",
+    COLOR(LOOK, "color", sphere.color, 1000, DRAWN(25), "1",
           "The second colour of the pattern; the first is look.color."),
     END,
 };
@@ -105,9 +105,9 @@ static const char *const greens[] = {
 };
 
 TABLE(fade) = {
-    VALUE(LOOK, "in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1",
+    VALUE(LOOK, "in", fade_in, KILN_FRACTION, 0, 1, TIME(26), "0.1",
           "Fraction of the life in which a particle fades in to its full opacity."),
-    VALUE(LOOK, "out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3",
+    VALUE(LOOK, "out", fade_out, KILN_FRACTION, 0, 1, TIME(27), "0.3",
           "Fraction of the life in which a particle fades out before its death."),
     END,
 };
@@ -138,10 +138,10 @@ PUBLIC_TABLE(kiln_options_look) = {
     CHOICE(LOOK, "blend", blend, blends, "alpha",
            "`alpha` covers what is behind the particle, like smoke. `add` adds light to it, like "
            "fire."),
-    VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m",
+    VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, DRAWN(28), "0.5 m",
           "Edge length of a billboard, diameter of a sphere, longest edge of a mesh. A billboard "
           "that is thinner than a pixel is drawn a pixel wide, and fainter by the same factor."),
-    RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
+    RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, BIRTH(29), "1",
           "Factor on size, chosen at random for each particle."),
     CHOICE(
         LOOK, "shape", shape, shapes, "billboard",
@@ -155,57 +155,57 @@ PUBLIC_TABLE(kiln_options_look) = {
         "`velocity` has its upper edge towards the velocity. `viewpoint` is turned to the eye "
         "and upright in the world. `axial` turns about `axis` alone, as far towards the eye as it "
         "can."),
-    VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(30), "[0, 1, 0]",
            "Axis that axial billboards turn about, of any length but 0."),
     GROUP(LOOK, "point", point, "How points look."),
     GROUP(LOOK, "line", line, "How lines look."),
     GROUP(LOOK, "sphere", sphere, "How spheres look."),
     GROUP(LOOK, "mesh", mesh,
           "How meshes look. All of them are instances of one mesh from a file."),
-    VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
+    VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, DRAWN(31), "0 s",
           "The billboard is longer along the velocity by the speed times this. 0 keeps it square."),
     BOOLEAN(LOOK, "stretch_dims", stretch_dims, "false",
             "true spreads the light of a billboard over its stretch, as the shutter of a camera "
             "does: it is fainter by the factor by which it is longer."),
-    RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
+    RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), DRAWN(32),
           "[0 deg, 360 deg]",
           "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
           "it."),
     RANGE(
-        LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",
+        LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), SUMMED_OVER_TIME(33), "0 deg/s",
         "Angular speed of a particle. Speed and direction are chosen at random for each particle."),
-    VALUE(LOOK, "cycles", cycles, KILN_PLAIN, 0, 1000, TIME, "1",
+    VALUE(LOOK, "cycles", cycles, KILN_PLAIN, 0, 1000, BIRTH(34), "1",
           "How many times the atlas plays in a life."),
     BOOLEAN(LOOK, "random_start", random_start, "false",
             "Each particle starts at a random cell of the atlas."),
-    COLOR(IF_IT_PAINTS, "color", color, 1000, BOTH, "1",
+    COLOR(IF_IT_PAINTS, "color", color, 1000, DRAWN(35), "1",
           "Factor on the colour of the atlas or of the glow."),
-    VALUE(LOOK, "opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1",
+    VALUE(LOOK, "opacity", opacity, KILN_FRACTION, 0, 1, DRAWN(36), "1",
           "Factor on the alpha of the atlas."),
-    VALUE(LOOK, "temperature", temperature, KILN_KELVIN, 0, 20000, BOTH, "0 K",
+    VALUE(LOOK, "temperature", temperature, KILN_KELVIN, 0, 20000, DRAWN(37), "0 K",
           "Temperature of the black body whose colour the particle glows with; 0 is no glow."),
-    VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, BOTH, "1",
+    VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, DRAWN(38), "1",
           "Factor on emitted light."),
     GROUP(LOOK, "fade", fade, "Opacity at birth and death."),
-    VALUE(LOOK, "soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
+    VALUE(LOOK, "soft", soft, KILN_PER_METRE, 0, 1000, DRAWN(39), "2",
           "How fast a particle fades where it nears a surface. A larger value fades over a shorter "
           "distance. 0 gives a hard edge."),
     CHOICE(
         LOOK, "soft_formula", soft_formula, soft_formulas, "clamped",
         "`clamped` limits the fade to 0..1. `literal` is equation 3.3 of Heinz's thesis (2019) as "
         "printed: it has no limit, and takes the particle's distance from the eye for its depth."),
-    VALUE(LOOK, "thickness", thickness, KILN_PLAIN, 0, 10, BOTH, "1",
+    VALUE(LOOK, "thickness", thickness, KILN_PLAIN, 0, 10, DRAWN(40), "1",
           "Depth of a billboard as a multiple of its size, where post.compose is oit: 1 is as deep "
           "as wide, like a puff of smoke; 0 is flat."),
-    VALUE(LOOK, "near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
+    VALUE(LOOK, "near_fade", near_fade, KILN_METRES, 0, 1000, DRAWN(41), "0.2 m",
           "Distance beyond the camera's near plane over which a particle fades in."),
-    COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Factor on the colour that goes to the bloom."),
-    VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
+    COLOR(LOOK, "bloom", bloom, 100, DRAWN(42), "0", "Factor on the colour that goes to the bloom."),
+    VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, DRAWN(43), "0",
           "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights."),
-    VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
+    VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME(44), "1",
           "How strongly a particle of blend alpha shadows itself and what lies behind it as seen "
           "from a light: a factor on the light that it absorbs."),
-    COLOR(LOOK, "light", light, 1000000, TIME, "0",
+    COLOR(LOOK, "light", light, 1000000, TIME(45), "0",
           "Factor on the light that a glowing particle sheds on backdrop and smoke. 1 is as much "
           "light as the particle emits."),
     INTEGER(LOOK, "lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",

@@ -72,10 +72,10 @@ TABLE(bloom) = {
     CHOICE(LOOK, "source", bloom_source, bloom_sources, "weights",
            "What glows: weights takes particles by look.bloom, bright takes all that is brighter "
            "than `threshold`."),
-    VALUE(LOOK, "strength", bloom_strength, KILN_PLAIN, 0, 100, TIME, "1", "Factor on the glow."),
-    VALUE(LOOK, "threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME, "1",
+    VALUE(LOOK, "strength", bloom_strength, KILN_PLAIN, 0, 100, TIME(66), "1", "Factor on the glow."),
+    VALUE(LOOK, "threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME(67), "1",
           "Exposed light above which the source bright glows."),
-    VALUE(LOOK, "radius", bloom_radius, KILN_FRACTION, 0, 1, TIME, "0.7",
+    VALUE(LOOK, "radius", bloom_radius, KILN_FRACTION, 0, 1, TIME(68), "0.7",
           "How far the pyramid spreads the glow."),
     VALUE(LOOK, "sigma", bloom_sigma, KILN_FRACTION, 0, 0.25, 0, "0.019",
           "Standard deviation of the gaussian as a part of the picture's height. The glow is seen "
@@ -92,7 +92,7 @@ PUBLIC_TABLE(kiln_options_post) = {
            "of each pixel on its own, by the depths that the pixel sees (look.thickness)."),
     GROUP(LOOK, "particles", particles, "How finely particles are drawn."),
     GROUP(LOOK, "bloom", bloom, "The glow around bright things."),
-    VALUE(LOOK, "exposure", exposure, KILN_STOPS, -20, 20, TIME, "0",
+    VALUE(LOOK, "exposure", exposure, KILN_STOPS, -20, 20, TIME(69), "0",
           "Exposure in stops; each stop doubles the light."),
     CHOICE(LOOK, "tonemap", tonemap, tonemaps, "agx",
            "Tone mapping of light into the colours of the picture."),

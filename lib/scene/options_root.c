@@ -19,18 +19,18 @@ TABLE(shutter) = {
 };
 
 TABLE(camera) = {
-    VECTOR(VIEW, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]",
+    VECTOR(VIEW, "position", position, KILN_METRES, -FAR, FAR, TIME(1), "[0, 1.5, 6]",
            "Position of the eye."),
-    VECTOR(VIEW, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(VIEW, "target", target, KILN_METRES, -FAR, FAR, TIME(2), "[0, 1, 0]",
            "Point that the camera looks at."),
-    VALUE(LOOK, "fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
+    VALUE(LOOK, "fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME(3), "45 deg",
           "Vertical field of view."),
-    VALUE(LOOK, "roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
+    VALUE(LOOK, "roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME(4), "0 deg",
           "Angle by which the camera is turned about its line of sight."),
-    VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
+    VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME(5), "0.05 m",
           "Distance of the near plane; nothing nearer than this is drawn."),
     VALUE(
-        VIEW, "aperture", aperture, KILN_METRES, 0, 10, TIME, "0 m",
+        VIEW, "aperture", aperture, KILN_METRES, 0, 10, TIME(6), "0 m",
         "Diameter of the lens, which blurs what is out of focus: a point at distance d is a disc "
         "of diameter aperture * |d - focus| / d in the plane of focus. 0 m is a pinhole, which "
         "blurs nothing. It takes output.samples or camera.shutter.samples: of one moment, a frame "
@@ -38,7 +38,7 @@ TABLE(camera) = {
     {ROW(VIEW, "focus", value, focus, "target",
          "Distance along the line of sight at which the picture is sharp. target is the distance "
          "of the point that the camera looks at."),
-     LIMITS(KILN_METRES, 0.001, 1000000), .clocks = TIME, .special_word = "target"},
+     LIMITS(KILN_METRES, 0.001, 1000000), .clocks = TIME(7), .special_word = "target"},
     GROUP(VIEW, "shutter", shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };

@@ -6,10 +6,16 @@
  *           are not used; unit.motion checks that it does
  *   LOOK    the key changes pictures alone
  *   VIEW    the key changes where the camera sees particles, or at which moments
- * A row says how its number may vary (option/rows.h):
- *   TIME    it is a constant or a curve over the time of the clip
- *   BOTH    it may also be a curve over the life of a particle
- *   0       it is a constant
+ * A row says how its value may vary (option/rows.h), with a number of its own:
+ *   TIME      it is the same for all particles of a system at a time
+ *   BIRTH     a particle gets it at its birth; it may also be random
+ *   LIFE      a particle has it at a moment; every clock but the distance to the eye is known
+ *   DRAWN     a particle has it when it is drawn; every clock is known
+ *   SUMMED    it is summed up over a particle's life
+ *   0         it does not vary
+ * Random values and noise depend on the number, so it must not change. It is below 256; tables of
+ * systems have numbers of their own, and tables outside of systems others, of which none is used
+ * twice (unit.draws).
  */
 #ifndef KILN_SCENE_ROWS_H
 #define KILN_SCENE_ROWS_H

@@ -32,7 +32,21 @@ uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame)
 
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value, float time_s)
 {
-    return value_at(scene->keys, *value, time_s, 0);
+    return value_at(scene->keys, *value, value_clocks_at(time_s, random_noise_key(scene->seed)));
+}
+
+float kiln_scene_system_value(const struct kiln_scene *scene, uint32_t system,
+                              const struct kiln_value *value, float time_s)
+{
+    return value_at(scene->keys, *value,
+                    value_clocks_at(time_s, random_system_key(scene->seed, system)));
+}
+
+float3 kiln_scene_system_value3(const struct kiln_scene *scene, uint32_t system,
+                                const struct kiln_value3 *value, float time_s)
+{
+    return value3_at(scene->keys, *value,
+                     value_clocks_at(time_s, random_system_key(scene->seed, system)));
 }
 
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
@@ -52,7 +66,7 @@ bool kiln_range_is_one_value(const struct kiln_range *range)
 {
     const struct kiln_value *min = &range->min, *max = &range->max;
     return min->constant == max->constant && min->first == max->first && min->count == max->count &&
-           min->clock == max->clock;
+           min->how == max->how;
 }
 
 bool kiln_object_is_oriented_box(const struct kiln_object *object)
@@ -65,35 +79,20 @@ bool kiln_object_is_oriented_box(const struct kiln_object *object)
 
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value)
 {
-    if (value->count == 0)
-        return value->constant;
-    float most = scene->keys[value->first].y;
-    for (uint32_t i = 1; i < value->count; i++) {
-        float y = scene->keys[value->first + i].y;
-        most = y > most ? y : most;
-    }
-    return most;
+    return kiln_value_most(scene->keys, value);
 }
 
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value)
 {
-    if (value->count == 0)
-        return value->constant;
-    float least = scene->keys[value->first].y;
-    for (uint32_t i = 1; i < value->count; i++) {
-        float y = scene->keys[value->first + i].y;
-        least = y < least ? y : least;
-    }
-    return least;
+    return kiln_value_least(scene->keys, value);
 }
 
 bool kiln_scene_view_stands(const struct kiln_scene *scene)
 {
     const struct kiln_camera *camera = &scene->camera;
     return scene->pixel_samples == 1 && kiln_value3_is_constant(&camera->position) &&
-           kiln_value3_is_constant(&camera->target) && camera->fov.clock == KILN_CLOCK_CONSTANT &&
-           camera->roll.clock == KILN_CLOCK_CONSTANT &&
-           camera->near_plane.clock == KILN_CLOCK_CONSTANT &&
+           kiln_value3_is_constant(&camera->target) && camera->fov.count == 0 &&
+           camera->roll.count == 0 && camera->near_plane.count == 0 &&
            !(kiln_scene_value_max(scene, &camera->aperture) > 0.0f);
 }
 
@@ -283,7 +282,7 @@ bool kiln_scene_spins(const struct kiln_scene *scene)
 static float rate_at(const void *context, float time_s)
 {
     const struct kiln_scene_births *births = context;
-    return kiln_scene_value(births->scene, births->rate, time_s);
+    return kiln_scene_system_value(births->scene, births->system, births->rate, time_s);
 }
 
 void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_scene *scene,
@@ -299,6 +298,7 @@ void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_
                    .steps_den = scene->rate.den,
                    .warmup_steps = scene->warmup_steps},
         .scene = scene,
+        .system = system,
         .rate = &emit->rate,
     };
 }

@@ -503,9 +503,14 @@ float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
 /* Returns the number of steps to run before frame `frame` is drawn. */
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
 
-/* Compute values on the host at a clip time, for values that are constant or vary over time. */
+/* Compute values on the host at a clip time, for values that are the same for all particles. Values
+ * of a system may have the system's noise, others that of the scene. */
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,
                        float time_s);
+float kiln_scene_system_value(const struct kiln_scene *scene, uint32_t system,
+                              const struct kiln_value *value, float time_s);
+float3 kiln_scene_system_value3(const struct kiln_scene *scene, uint32_t system,
+                                const struct kiln_value3 *value, float time_s);
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
                          float time_s);
 
@@ -517,7 +522,7 @@ bool kiln_range_is_one_value(const struct kiln_range *range);
 /* Returns whether an object is a box that has a rotation at any time. */
 bool kiln_object_is_oriented_box(const struct kiln_object *object);
 
-/* Return the largest and the smallest value over all time, which lie at keys. */
+/* Return limits that a value never goes over, or below (kiln_value_most). */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 

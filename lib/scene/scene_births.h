@@ -10,6 +10,7 @@
 struct kiln_scene_births {
     struct kiln_births_source source;
     const struct kiln_scene *scene;
+    uint32_t system;
     const struct kiln_value *rate;
 };
 void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_scene *scene,

@@ -27,9 +27,11 @@ FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
 FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_particle) p)
 {
     EXACT float born_s = particle_birth_time(d, p);
-    EXACT float low = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.min, born_s, 0.0f);
-    EXACT float high = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.max, born_s, 0.0f);
-    EXACT float life_s = random_between(particle_stream(d, p), RANDOM_LIFE, low, high);
+    uint stream = particle_stream(d, p);
+    EXACT S(value_clocks) clocks = value_clocks_of_birth(born_s, d.random_key, stream);
+    EXACT float low = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.min, clocks);
+    EXACT float high = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.max, clocks);
+    EXACT float life_s = random_between(stream, RANDOM_LIFE, low, high);
     return life_s;
 }
 

@@ -25,9 +25,10 @@ struct emit_place {
 };
 
 /* Returns a place uniform in the box, or on its six faces by their area. */
-FN float3 emit_in_box(SIM_PARAM uint stream, float time_s)
+FN float3 emit_in_box(SIM_PARAM S(value_clocks) clocks)
 {
-    EXACT float3 size = VALUE3_OF(KEYED_SIZE, SIM_KEYS STEP(emit.size), time_s, 0.0f);
+    uint stream = clocks.stream;
+    EXACT float3 size = VALUE3_OF(KEYED_SIZE, SIM_KEYS STEP(emit.size), clocks);
     EXACT float3 at = FLOAT3(random_unit(stream, RANDOM_PLACE) - 0.5f,
                              random_unit(stream, RANDOM_PLACE + 1u) - 0.5f,
                              random_unit(stream, RANDOM_PLACE + 2u) - 0.5f);
@@ -62,9 +63,10 @@ FN float3 emit_on_disc(uint stream, uint purpose, float3 axis, float radius, boo
 }
 
 /* Returns a place on the line: at the nozzle that is next in turn, or anywhere. */
-FN float3 emit_on_line(SIM_PARAM uint stream, uint serial, float time_s)
+FN float3 emit_on_line(SIM_PARAM S(value_clocks) clocks, uint serial)
 {
-    EXACT float3 span = VALUE3_OF(KEYED_SIZE, SIM_KEYS STEP(emit.size), time_s, 0.0f);
+    uint stream = clocks.stream;
+    EXACT float3 span = VALUE3_OF(KEYED_SIZE, SIM_KEYS STEP(emit.size), clocks);
     uint nozzles = STEP(emit.nozzles);
     EXACT float part = random_unit(stream, RANDOM_PLACE);
     if (nozzles != 0u)
@@ -74,14 +76,15 @@ FN float3 emit_on_line(SIM_PARAM uint stream, uint serial, float time_s)
     return y;
 }
 
-FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
+FN S(emit_place) emit_place_at(SIM_PARAM S(value_clocks) clocks, uint serial)
 {
+    uint stream = clocks.stream;
     EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
-    EXACT float3 towards = VALUE3_OF(KEYED_DIRECTION, SIM_KEYS STEP(emit.direction), time_s, 0.0f);
+    EXACT float3 towards = VALUE3_OF(KEYED_DIRECTION, SIM_KEYS STEP(emit.direction), clocks);
     EXACT float3 axis = float3_normalize(towards, up);
-    EXACT float angle = VALUE_OF(KEYED_ANGLE, SIM_KEYS STEP(emit.angle), time_s, 0.0f);
+    EXACT float angle = VALUE_OF(KEYED_ANGLE, SIM_KEYS STEP(emit.angle), clocks);
     EXACT S(exact_angle) rim = exact_sincos(angle);
-    EXACT float radius = VALUE_OF(KEYED_RADIUS, SIM_KEYS STEP(emit.radius), time_s, 0.0f);
+    EXACT float radius = VALUE_OF(KEYED_RADIUS, SIM_KEYS STEP(emit.radius), clocks);
     EXACT S(emit_place) place;
     place.axis = axis;
     place.direction = random_direction(stream, RANDOM_DIRECTION, axis, rim.cosine);
@@ -94,7 +97,7 @@ FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
         if (STEP(emit.outward) != 0u)
             place.direction = float3_normalize(unit, axis);
     } else if (USES(USES_EMITTERS, EMIT_BOX) && shape == EMIT_BOX) {
-        place.offset = emit_in_box(SIM stream, time_s);
+        place.offset = emit_in_box(SIM clocks);
     } else if (USES(USES_EMITTERS, EMIT_DISC) && shape == EMIT_DISC) {
         place.offset = emit_on_disc(stream, RANDOM_PLACE, axis, radius, surface);
     } else if (USES(USES_EMITTERS, EMIT_CONE) && shape == EMIT_CONE) {
@@ -103,7 +106,7 @@ FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
          * all came from one point behind. */
         place.offset = emit_on_disc(stream, RANDOM_DIRECTION, axis, radius, false);
     } else if (USES(USES_EMITTERS, EMIT_LINE) && shape == EMIT_LINE) {
-        place.offset = emit_on_line(SIM stream, serial, time_s);
+        place.offset = emit_on_line(SIM clocks, serial);
     }
     return place;
 }
@@ -114,16 +117,16 @@ struct emit_state {
 };
 
 /* Returns a birth at a clip time as the shape says, from an emitter at rest. */
-FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
+FN S(emit_state) emit_at_rest(SIM_PARAM S(value_clocks) clocks, uint serial)
 {
-    EXACT S(emit_place) place = emit_place_at(SIM stream, serial, time_s);
-    EXACT float slowest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.min), time_s, 0.0f);
-    EXACT float fastest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.max), time_s, 0.0f);
-    EXACT float speed = random_between(stream, RANDOM_SPEED, slowest, fastest);
-    EXACT float3 origin = VALUE3_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin), time_s, 0.0f);
+    EXACT S(emit_place) place = emit_place_at(SIM clocks, serial);
+    EXACT float slowest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.min), clocks);
+    EXACT float fastest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.max), clocks);
+    EXACT float speed = random_between(clocks.stream, RANDOM_SPEED, slowest, fastest);
+    EXACT float3 origin = VALUE3_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin), clocks);
     EXACT S(emit_state) born;
     born.position = float3_add(origin, place.offset);
-    EXACT float turn = VALUE_OF(KEYED_TURN, SIM_KEYS STEP(emit.turn), time_s, 0.0f);
+    EXACT float turn = VALUE_OF(KEYED_TURN, SIM_KEYS STEP(emit.turn), clocks);
     EXACT float3 around = float3_cross(place.axis, place.offset);
     EXACT float3 thrown = float3_scale(place.direction, speed);
     born.velocity = float3_add_scaled(thrown, around, turn);
@@ -133,12 +136,14 @@ FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
 /* Returns place and velocity of a particle born at a clip time. */
 FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
 {
-    EXACT S(emit_state) born = emit_at_rest(SIM stream, serial, time_s);
+    EXACT S(value_clocks) clocks =
+        value_clocks_of_birth(time_s, STEP(derived.random_key), stream);
+    EXACT S(emit_state) born = emit_at_rest(SIM clocks, serial);
     EXACT float3 origin_rate =
-        FLOAT3(VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.x), time_s),
-               VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.y), time_s),
-               VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.z), time_s));
-    EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
+        FLOAT3(VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.x), clocks),
+               VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.y), clocks),
+               VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.z), clocks));
+    EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), clocks);
     born.velocity = float3_add_scaled(born.velocity, origin_rate, inherit);
     return born;
 }
@@ -158,8 +163,10 @@ FN float3 emit_rotate(float3 v, float3 axis)
 FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(emit_state) parent,
                             float3 axis)
 {
-    EXACT S(emit_state) own = emit_at_rest(SIM stream, serial, time_s);
-    EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
+    EXACT S(value_clocks) clocks =
+        value_clocks_of_birth(time_s, STEP(derived.random_key), stream);
+    EXACT S(emit_state) own = emit_at_rest(SIM clocks, serial);
+    EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), clocks);
     EXACT float3 offset = emit_rotate(own.position, axis);
     EXACT float3 thrown = emit_rotate(own.velocity, axis);
     EXACT S(emit_state) born;

@@ -90,4 +90,28 @@ FN float forces_damping(float z)
     return damping;
 }
 
+/* Returns the time at which the forces of a step that starts at `time_s` are evaluated. Integrators
+ * that evaluate them at several places use the middle of the step for all, where the host evaluates
+ * values over time. */
+FN float forces_time_s(SIM_PARAM float time_s)
+{
+#ifdef FORCES_ALL
+    if (STEP_INTEGRATION >= INTEGRATE_TRAPEZOID) {
+        EXACT float halfway_s = time_s + 0.5f * STEP(derived.dt_s);
+        return halfway_s;
+    }
+#endif
+    return time_s;
+}
+
+/* Returns a particle's clocks at a place of its way, where forces act on it. */
+FN S(value_clocks) forces_clocks(SIM_PARAM float3 position, float3 velocity, S(value_clocks) clocks)
+{
+    EXACT S(value_clocks) here = clocks;
+    here.time_s = forces_time_s(SIM STEP(time_s));
+    here.height = position.y;
+    here.velocity = velocity;
+    return here;
+}
+
 #endif

@@ -61,20 +61,6 @@ FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
     return y;
 }
 
-/* Returns the time at which the forces of a step that starts at `time_s` are evaluated. Integrators
- * that evaluate them at several places use the middle of the step for all, where the host evaluates
- * values over time. */
-FN float forces_time_s(SIM_PARAM float time_s)
-{
-#ifdef FORCES_ALL
-    if (STEP_INTEGRATION >= INTEGRATE_TRAPEZOID) {
-        EXACT float halfway_s = time_s + 0.5f * STEP(derived.dt_s);
-        return halfway_s;
-    }
-#endif
-    return time_s;
-}
-
 /* Returns the input of force i for a particle at a place. values: the force's options that vary
  * over the particle's life. */
 FN S(force_input) force_input_of(SIM_PARAM uint i, float3 position, S(force_values) values)
@@ -93,24 +79,20 @@ FN S(force_input) force_input_of(SIM_PARAM uint i, float3 position, S(force_valu
     return force;
 }
 
-FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
+FN S(force_effect) forces_sum(SIM_PARAM float3 position, float3 velocity, S(value_clocks) clocks)
 {
     EXACT S(force_effect) sum = force_none();
-    EXACT float time_s = forces_time_s(SIM STEP(time_s));
+    EXACT S(value_clocks) here = forces_clocks(SIM position, velocity, clocks);
     EXACT S(force_values) values;
     for (uint i = 0u; i < STEP(force_count); i++) {
-        values.vector =
-            VALUE3_OF(KEYED_FORCE_VECTOR, SIM_KEYS STEP(forces[i].vector), time_s, life);
-        values.second =
-            VALUE3_OF(KEYED_FORCE_SECOND, SIM_KEYS STEP(forces[i].second), time_s, life);
-        values.strength =
-            VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), time_s, life);
-        values.pull = VALUE_OF(KEYED_FORCE_PULL, SIM_KEYS STEP(forces[i].pull), time_s, life);
+        values.vector = VALUE3_OF(KEYED_FORCE_VECTOR, SIM_KEYS STEP(forces[i].vector), here);
+        values.second = VALUE3_OF(KEYED_FORCE_SECOND, SIM_KEYS STEP(forces[i].second), here);
+        values.strength = VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), here);
+        values.pull = VALUE_OF(KEYED_FORCE_PULL, SIM_KEYS STEP(forces[i].pull), here);
 #ifdef FORCES_ALL
-        values.quadratic =
-            VALUE_OF(KEYED_FORCE_QUADRATIC, SIM_KEYS STEP(forces[i].quadratic), time_s, life);
+        values.quadratic = VALUE_OF(KEYED_FORCE_QUADRATIC, SIM_KEYS STEP(forces[i].quadratic), here);
 #endif
-        values.scale = VALUE_OF(KEYED_FORCE_SCALE, SIM_KEYS STEP(forces[i].scale), time_s, life);
+        values.scale = VALUE_OF(KEYED_FORCE_SCALE, SIM_KEYS STEP(forces[i].scale), here);
         EXACT S(force_input) force = force_input_of(SIM i, position, values);
         EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);
         sum = forces_add(sum, effect);

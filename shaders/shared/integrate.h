@@ -11,14 +11,14 @@
 #ifdef FORCES_PLAIN
 
 /* Does integrate for integrators that evaluate forces once, without quadratic drag. */
-FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, float life)
+FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, S(value_clocks) clocks)
 {
     EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
-    EXACT S(force_effect) forces = forces_sum(SIM s.position, life);
+    EXACT S(force_effect) forces = forces_sum(SIM s.position, s.velocity, clocks);
     EXACT S(collide_state) moved = s;
     moved.velocity = forces_apply(forces, s.velocity, time_s);
     if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
-        moved.velocity = force_limit_all(SIM moved.velocity, life);
+        moved.velocity = force_limit_all(SIM s.position, moved.velocity, clocks);
     EXACT float3 carrying = moved.velocity;
     if (STEP_INTEGRATION == INTEGRATE_POSITION_FIRST)
         carrying = s.velocity;
@@ -31,16 +31,18 @@ FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, f
 #ifdef FORCES_ALL
 
 /* Does integrate for all integrators and forces. */
-FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float until, float life)
+FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float until,
+                                    S(value_clocks) clocks)
 {
     EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
     uint count = stages_count(STEP_INTEGRATION);
     EXACT S(stages) s = stages_start(start.position, start.velocity);
     for (uint stage = 0u; stage < count; stage++) {
-        EXACT S(force_effect) forces = forces_sum(SIM s.at, life);
+        EXACT float3 at = s.at;
+        EXACT S(force_effect) forces = forces_sum(SIM at, s.moving, clocks);
         s = stages_take(s, forces, stage, count, time_s);
         if ((STEP(forces_do) & FORCES_LIMIT) != 0u)
-            s.moving = force_limit_all(SIM s.moving, life);
+            s.moving = force_limit_all(SIM at, s.moving, clocks);
     }
     EXACT S(collide_state) moved = start;
     moved.position = stages_arrive(s, STEP_INTEGRATION, time_s);
@@ -52,16 +54,16 @@ FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float unt
 #endif
 
 /* Moves a particle from the part `since` of the step to the part `until`, without collision. */
-FN S(collide_state) integrate(SIM_PARAM S(collide_state) s, float until, float life)
+FN S(collide_state) integrate(SIM_PARAM S(collide_state) s, float until, S(value_clocks) clocks)
 {
 #if defined(FORCES_ALL) && defined(FORCES_PLAIN)
     if (STEP_INTEGRATION < INTEGRATE_TRAPEZOID && (STEP(forces_do) & FORCES_SLOW) == 0u)
-        return integrate_plain(SIM s, until, life);
-    return integrate_stages(SIM s, until, life);
+        return integrate_plain(SIM s, until, clocks);
+    return integrate_stages(SIM s, until, clocks);
 #elif defined(FORCES_ALL)
-    return integrate_stages(SIM s, until, life);
+    return integrate_stages(SIM s, until, clocks);
 #else
-    return integrate_plain(SIM s, until, life);
+    return integrate_plain(SIM s, until, clocks);
 #endif
 }
 

@@ -53,26 +53,32 @@ FN S(kiln_body) body_with_motion(S(kiln_body) b, float3 position, float3 velocit
     return moved;
 }
 
-/* Returns the progress of a particle's life at the start of the step. */
-FN float body_progress(CROWD_PARAM S(kiln_particle) p)
+/* Returns the clocks of a particle at the start of the step. */
+FN S(value_clocks) body_clocks(CROWD_PARAM S(kiln_particle) p)
 {
     EXACT float life_s = particle_life_s(CROWD_KEYS INTERACT(derived), p);
     EXACT float age_s = particle_age(p, INTERACT(step), INTERACT(derived.dt_s));
-    EXACT float life = particle_progress(age_s, life_s);
-    return life;
+    EXACT float3 position = particle_position(p);
+    EXACT float time_s = INTERACT(time_s);
+    EXACT S(value_clocks) clocks = value_clocks_at(time_s, INTERACT(derived.random_key));
+    clocks.life = particle_progress(age_s, life_s);
+    clocks.age_s = age_s;
+    clocks.height = position.y;
+    clocks.velocity = particle_velocity(p);
+    clocks.stream = particle_stream(INTERACT(derived), p);
+    return clocks;
 }
 
 /* Returns the radius of a particle at the start of the step. */
 FN float body_radius_of(CROWD_PARAM S(kiln_particle) p)
 {
-    EXACT float life = body_progress(CROWD p);
-    EXACT float radius = value_at(CROWD_KEYS INTERACT(radius), INTERACT(time_s), life);
+    EXACT S(value_clocks) clocks = body_clocks(CROWD p);
+    EXACT float radius = value_at(CROWD_KEYS INTERACT(radius), clocks);
     if (INTERACT(as_drawn) != 0u) {
-        EXACT float low = value_at(CROWD_KEYS INTERACT(scale.min), INTERACT(time_s), life);
-        EXACT float high = value_at(CROWD_KEYS INTERACT(scale.max), INTERACT(time_s), life);
-        uint stream = particle_stream(INTERACT(derived), p);
-        EXACT float scale = random_between(stream, RANDOM_SCALE, low, high);
-        EXACT float size = value_at(CROWD_KEYS INTERACT(size), INTERACT(time_s), life);
+        EXACT float low = value_at(CROWD_KEYS INTERACT(scale.min), clocks);
+        EXACT float high = value_at(CROWD_KEYS INTERACT(scale.max), clocks);
+        EXACT float scale = random_between(clocks.stream, RANDOM_SCALE, low, high);
+        EXACT float size = value_at(CROWD_KEYS INTERACT(size), clocks);
         radius = (size * 0.5f) * scale;
     }
     EXACT float positive = radius > 0.0f ? radius : 0.0f;

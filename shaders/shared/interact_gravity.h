@@ -13,8 +13,7 @@
 FN float4 gravity_source(CROWD_PARAM S(kiln_particle) p)
 {
     EXACT float3 position = particle_position(p);
-    EXACT float life = body_progress(CROWD p);
-    EXACT float strength = value_at(CROWD_KEYS INTERACT(strength), INTERACT(time_s), life);
+    EXACT float strength = value_at(CROWD_KEYS INTERACT(strength), body_clocks(CROWD p));
     EXACT float pull = exact_canon(strength);
     EXACT float4 y = FLOAT4(position.x, position.y, position.z, pull);
     return y;

@@ -73,21 +73,37 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* Returns the options for impacts in this step, at a part of the particle's life. */
-FN S(collide_answer) step_answer(SIM_PARAM uint stream, float life, float radius)
+/* Returns the clocks of a particle at the start of this step, or at its birth in it. */
+FN S(value_clocks) step_clocks(SIM_PARAM S(kiln_particle) p, float age_s, float life_s)
+{
+    bool born = particle_birth_step(p) == STEP(step);
+    EXACT float age_before_s = age_s - STEP(derived.dt_s);
+    EXACT float progress = particle_progress(age_before_s, life_s);
+    EXACT float3 position = particle_position(p);
+    EXACT float time_s = STEP(time_s);
+    EXACT S(value_clocks) clocks = value_clocks_at(time_s, STEP(derived.random_key));
+    clocks.life = born ? 0.0f : progress;
+    clocks.age_s = born ? 0.0f : age_before_s;
+    clocks.height = position.y;
+    clocks.velocity = particle_velocity(p);
+    clocks.stream = particle_stream(STEP(derived), p);
+    return clocks;
+}
+
+/* Returns the options for impacts in this step. */
+FN S(collide_answer) step_answer(SIM_PARAM S(value_clocks) clocks, float radius)
 {
     EXACT S(collide_answer) answer;
-    answer.randomness = VALUE_OF(KEYED_RANDOMNESS, SIM_KEYS STEP(randomness), STEP(time_s), life);
-    answer.slowdown = VALUE_OF(KEYED_SLOWDOWN, SIM_KEYS STEP(slowdown), STEP(time_s), life);
-    answer.stream = stream;
+    answer.randomness = VALUE_OF(KEYED_RANDOMNESS, SIM_KEYS STEP(randomness), clocks);
+    answer.slowdown = VALUE_OF(KEYED_SLOWDOWN, SIM_KEYS STEP(slowdown), clocks);
+    answer.stream = clocks.stream;
     answer.purpose = 0u;
     answer.rubs = STEP(rubs) != 0u;
     answer.restitution = 1.0f;
     answer.friction = 0.0f;
     if (COLLIDE_RUBS(answer)) {
-        answer.restitution =
-            VALUE_OF(KEYED_RESTITUTION, SIM_KEYS STEP(restitution), STEP(time_s), life);
-        answer.friction = VALUE_OF(KEYED_FRICTION, SIM_KEYS STEP(friction), STEP(time_s), life);
+        answer.restitution = VALUE_OF(KEYED_RESTITUTION, SIM_KEYS STEP(restitution), clocks);
+        answer.friction = VALUE_OF(KEYED_FRICTION, SIM_KEYS STEP(friction), clocks);
     }
     answer.radius = radius;
     answer.spins = STEP(spins) != 0u && radius > 0.0f;
@@ -142,7 +158,7 @@ FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
 #endif
 
 /* Follows a way among the colliders, and records its first impact. */
-FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, float life,
+FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, S(value_clocks) clocks,
                                S(collide_answer) answer)
 {
     EXACT S(collide_way) bounced;
@@ -152,26 +168,25 @@ FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, float lif
         bounced = collide_clamp(SIM start, way.end.position, way.end.since, answer);
         return bounced;
     }
-    bounced = sweep(SIM start, way.end, push, life, answer);
+    bounced = sweep(SIM start, way.end, push, clocks, answer);
     if (SWEEP_POSITION_FIRST) {
         start.velocity = bounced.end.velocity;
-        start = integrate(SIM start, way.end.since, life);
+        start = integrate(SIM start, way.end.since, clocks);
         bounced.end.velocity = start.velocity;
     }
     return bounced;
 }
 
 /* Collides on a way that is already known without colliders. */
-FN S(step_way) step_meet(SIM_PARAM S(kiln_particle) p, S(step_way) flown, S(step_push) push,
-                         float life)
+FN S(step_way) step_meet(SIM_PARAM S(step_way) flown, S(step_push) push,
+                         S(value_clocks) clocks)
 {
     EXACT S(step_way) way = flown;
     if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
         return way;
     if (STEP_COLLIDES) {
-        EXACT S(collide_answer) answer =
-            step_answer(SIM particle_stream(STEP(derived), p), life, push.radius);
-        EXACT S(collide_way) bounced = step_collide(SIM way, push.position, life, answer);
+        EXACT S(collide_answer) answer = step_answer(SIM clocks, push.radius);
+        EXACT S(collide_way) bounced = step_collide(SIM way, push.position, clocks, answer);
         way.end = bounced.end;
         way.first = bounced.first;
         if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))
@@ -185,8 +200,7 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
                          float until)
 {
     bool born = particle_birth_step(p) == STEP(step);
-    EXACT float age_before_s = age_s - STEP(derived.dt_s);
-    EXACT float life = born ? 0.0f : particle_progress(age_before_s, life_s);
+    EXACT S(value_clocks) clocks = step_clocks(SIM p, age_s, life_s);
 
     EXACT S(step_way) way;
     way.start.position = particle_position(p);
@@ -198,11 +212,11 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     if (STEP(spins) != 0u)
         way.start.spin = step_spin(SIM p, push.slot);
 #endif
-    way.end = integrate(SIM way.start, until, life);
+    way.end = integrate(SIM way.start, until, clocks);
     way.end.position = push_farther(push, way.end.position);
     way.first = collide_no_touch();
     way.lost = true;
-    way = step_meet(SIM p, way, push, life);
+    way = step_meet(SIM way, push, clocks);
 #if !defined(GL_core_profile) || defined(SPINS)
     if (STEP(spins) != 0u && !way.lost)
         step_turn(SIM p, push.slot, way.end.spin);

@@ -83,12 +83,12 @@ FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) 
 }
 
 /* Returns the end of the next piece of a curve or of a straight line. */
-FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, float life)
+FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, S(value_clocks) clocks)
 {
     EXACT S(collide_state) ahead = path.now;
     EXACT float part = path.aim - path.now.since;
     if (path.curved) {
-        ahead = integrate(SIM path.now, path.aim, life);
+        ahead = integrate(SIM path.now, path.aim, clocks);
         ahead.position = float3_add_scaled(ahead.position, path.push, part);
         return ahead;
     }
@@ -227,7 +227,7 @@ FN S(collide_state) sweep_stay(SIM_PARAM S(sweep_path) path, float radius)
 
 /* Does sweep for the given kind of way. */
 FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
-                              float life, S(collide_answer) answer, bool curved)
+                              S(value_clocks) clocks, S(collide_answer) answer, bool curved)
 {
     EXACT S(collide_way) way;
     way.first = collide_no_touch();
@@ -262,7 +262,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
                 path = sweep_off(SIM path, hit, left, at.position, blow);
             }
         }
-        path.ahead = sweep_ahead(SIM path, life);
+        path.ahead = sweep_ahead(SIM path, clocks);
     }
     way.end = sweep_stay(SIM path, answer.radius);
     return way;
@@ -271,16 +271,16 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
 /* Follows a particle from `start` to the time of `end`, its place without colliders. `push`, m, is
  * the part of that by other particles of its system. The result is outside of every collider. */
 FN S(collide_way) sweep(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
-                        float life, S(collide_answer) answer)
+                        S(value_clocks) clocks, S(collide_answer) answer)
 {
     EXACT S(collide_way) way;
 #ifndef GL_core_profile /* in C, where compilers then make two loops */
     if (!SWEEP_IS_CURVED) {
-        way = sweep_along(SIM start, end, push, life, answer, false);
+        way = sweep_along(SIM start, end, push, clocks, answer, false);
         return way;
     }
 #endif
-    way = sweep_along(SIM start, end, push, life, answer, SWEEP_IS_CURVED);
+    way = sweep_along(SIM start, end, push, clocks, answer, SWEEP_IS_CURVED);
     return way;
 }
 

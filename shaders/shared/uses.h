@@ -61,13 +61,13 @@
 #define USES(mask, part)      ((((mask) >> (part)) & 1u) != 0u)
 #define USES_ANY(mask, parts) (((mask) & (parts)) != 0u)
 
-#define VALUE_OF(keyed, value, time_s, life)                                                       \
-    (USES(USES_KEYS, keyed) ? value_at(value, time_s, life) : (value).constant)
-#define VALUE3_OF(keyed, value, time_s, life)                                                      \
-    (USES(USES_KEYS, keyed) ? value3_at(value, time_s, life)                                       \
+#define VALUE_OF(keyed, value, clocks)                                                             \
+    (USES(USES_KEYS, keyed) ? value_at(value, clocks) : (value).constant)
+#define VALUE3_OF(keyed, value, clocks)                                                            \
+    (USES(USES_KEYS, keyed) ? value3_at(value, clocks)                                             \
                             : FLOAT3((value).x.constant, (value).y.constant, (value).z.constant))
-#define VALUE_RATE_OF(keyed, value, time_s)                                                        \
-    (USES(USES_KEYS, keyed) ? value_rate_at(value, time_s) : 0.0f)
+#define VALUE_RATE_OF(keyed, value, clocks)                                                        \
+    (USES(USES_KEYS, keyed) ? value_rate_at(value, clocks) : 0.0f)
 
 #else
 
@@ -75,9 +75,9 @@
 #define USES(mask, part)      true
 #define USES_ANY(mask, parts) true
 
-#define VALUE_OF(keyed, value, time_s, life)  value_at(value, time_s, life)
-#define VALUE3_OF(keyed, value, time_s, life) value3_at(value, time_s, life)
-#define VALUE_RATE_OF(keyed, value, time_s)   value_rate_at(value, time_s)
+#define VALUE_OF(keyed, value, clocks)      value_at(value, clocks)
+#define VALUE3_OF(keyed, value, clocks)     value3_at(value, clocks)
+#define VALUE_RATE_OF(keyed, value, clocks) value_rate_at(value, clocks)
 
 #endif
 #endif

@@ -33,7 +33,7 @@ struct kiln_value fixture_constant(float x)
 struct kiln_value fixture_keys(struct scene_fixture *f, uint32_t clock, uint32_t count,
                                const float (*points)[2])
 {
-    struct kiln_value value = {.first = f->scene.key_count, .count = count, .clock = clock};
+    struct kiln_value value = {.first = f->scene.key_count, .count = count, .how = clock};
     for (uint32_t i = 0; i < count; i++) {
         float slope = 0.0f;
         if (i + 1 < count)

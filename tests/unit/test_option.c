@@ -105,10 +105,10 @@ TABLE(rows) = {
     {ROW(NO_PART, "title", text, title, "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
     {ROW(NO_PART, "room", bounds, room, "none", "Where the pen may be."),
      LIMITS(KILN_METRES, -9, 9), .special_word = "none"},
-    VALUE(NO_PART, "speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
-    VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
-    COLOR(NO_PART, "ink", ink, 1, TIME, "0", "What it draws with."),
-    RANGE(NO_PART, "pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
+    VALUE(NO_PART, "speed", speed, KILN_SPEED, 0, 10, LIFE(1), "1 m/s", "Of the pen."),
+    VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME(2), "[0, 0, 0]", "Of the plotter."),
+    COLOR(NO_PART, "ink", ink, 1, TIME(3), "0", "What it draws with."),
+    RANGE(NO_PART, "pressure", pressure, KILN_PLAIN, 0, 1, TIME(4), "0.5", "Of the pen."),
     MAP(NO_PART, "trays", trays, tray, tray_count, "{}", "The trays by their names."),
     LIST(NO_PART, "marks", marks, mark, mark_count, "[]", "What it draws."),
     END,
@@ -186,8 +186,8 @@ static void a_document_fills_its_target(void **state)
     assert_int_equal(p->medium, MEDIUM_GLASS);
     assert_string_equal(p->title, "a \"line\"");
     assert_true(p->room.enabled && p->room.max[2] == 3.0f);
-    assert_true(value_at(r.reader.keys, p->speed, 1.0f, 0.0f) == 2.0f);
-    assert_true(value3_at(r.reader.keys, p->place, 0.5f, 0.0f).z == 3.5f);
+    assert_true(value_at(r.reader.keys, p->speed, value_clocks_at(1.0f, 0)) == 2.0f);
+    assert_true(value3_at(r.reader.keys, p->place, value_clocks_at(0.5f, 0)).z == 3.5f);
     assert_true(p->ink.y.constant == 0.25f && p->pressure.max.constant == 0.5f);
     assert_int_equal(p->tray_count, 2);
     assert_string_equal(p->trays[1].name, "lower");

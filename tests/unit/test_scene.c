@@ -41,12 +41,12 @@ static void example_loads(void **state)
     assert_true(smoke->forces[2].strength.constant == 0.6f);
     assert_true(smoke->collide.enabled && smoke->collide.randomness.constant == 0.4f);
     assert_string_equal(smoke->look.atlas[0], "builtin:smoke");
-    assert_int_equal(smoke->look.size.clock, KILN_CLOCK_LIFE);
+    assert_int_equal(VALUE_CLOCK(smoke->look.size.how), KILN_CLOCK_LIFE);
 
     const struct kiln_system *fire = &scene->systems[1];
     assert_false(fire->collide.enabled);
     assert_int_equal(fire->look.blend, KILN_BLEND_ADD);
-    assert_int_equal(fire->emit.rate.clock, KILN_CLOCK_TIME);
+    assert_int_equal(VALUE_CLOCK(fire->emit.rate.how), KILN_CLOCK_TIME);
     assert_int_equal(scene->backdrop.object_count, 1);
     assert_true(scene->backdrop.floor_enabled);
     assert_int_equal(scene->post.tonemap, KILN_TONEMAP_AGX);
@@ -135,7 +135,7 @@ static void every_key_of_a_system_arrives(void **state)
     assert_true(point->forces[5].vector.z.constant == 2);
     assert_true(point->forces[6].pull.constant == 2);
     assert_true(point->forces[7].scale.constant == 0.1f && point->forces[7].octaves == 4);
-    assert_int_equal(point->forces[7].pull.clock, KILN_CLOCK_LIFE);
+    assert_int_equal(VALUE_CLOCK(point->forces[7].pull.how), KILN_CLOCK_LIFE);
     assert_int_equal(point->forces[9].mode, KILN_WIND_ADD);
     assert_true(point->forces[10].quadratic.constant == 2);
     assert_true(point->forces[11].vector.x.count == 2 && point->forces[11].strength.constant == -3);
@@ -146,7 +146,7 @@ static void every_key_of_a_system_arrives(void **state)
     assert_true(point->forces[13].strength.constant == 5);
     assert_int_equal(point->collide.mode, KILN_COLLIDE_CLAMP);
     assert_true(point->collide.slowdown.constant == 0.9f);
-    assert_int_equal(point->collide.restitution.clock, KILN_CLOCK_LIFE);
+    assert_int_equal(VALUE_CLOCK(point->collide.restitution.how), KILN_CLOCK_LIFE);
     assert_int_equal(point->collide.friction.count, 2);
     assert_int_equal(point->demitter_count, 2);
     assert_true(point->demitters[1].enabled && point->demitters[1].max[0] == 3);
@@ -168,7 +168,7 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
     assert_true(look->axis.y.count == 2 && look->axis.z.constant == -1);
     assert_true(look->point_size.count == 2 && !look->point_round);
     assert_int_equal(look->line_to, KILN_LINE_PREVIOUS);
-    assert_true(look->line_width.clock == KILN_CLOCK_LIFE);
+    assert_true(VALUE_CLOCK(look->line_width.how) == KILN_CLOCK_LIFE);
     assert_true(look->rotation.min.constant == -pi / 2);
     assert_true(look->random_start && look->soft_formula == KILN_SOFT_LITERAL);
     assert_true(look->fade_in.constant == 0.25f && look->fade_out.constant == 0.5f);

@@ -74,7 +74,7 @@ static void vectors_live_as_long(void **state)
         .random_key = 77,
         .warmup_steps = 30,
         .dt_s = 1.0f / 60.0f,
-        .life = {.min = {.constant = 0.5f}, .max = {.count = 2, .clock = KILN_CLOCK_TIME}}};
+        .life = {.min = {.constant = 0.5f}, .max = {.count = 2, .how = KILN_CLOCK_TIME}}};
     struct kiln_particle records[LANES];
     srand(3);
     for (int i = 0; i < 500; i++) {

@@ -24,6 +24,14 @@ static struct kiln_scene *size_scene(const char *text)
     return load_scene(scene, NULL);
 }
 
+/* The clocks of a particle at a time, and at a part of its life. */
+static struct value_clocks clocks_at(float time_s, float life)
+{
+    struct value_clocks clocks = value_clocks_at(time_s, 0);
+    clocks.life = life;
+    return clocks;
+}
+
 static void units_convert_to_si(void **state)
 {
     (void)state;
@@ -85,7 +93,7 @@ static void keys_are_joined_and_held(void **state)
     (void)state;
     struct kiln_scene *scene = size_scene("{keys: {1 s: 2, 3 s: 6, 3500 ms: 6, 4 s: 0}}");
     const struct kiln_value *size = &scene->systems[0].look.size;
-    assert_int_equal(size->clock, KILN_CLOCK_TIME);
+    assert_int_equal(VALUE_CLOCK(size->how), KILN_CLOCK_TIME);
     assert_int_equal(size->count, 4);
     static const float expected[][2] = {{-5, 2},    {1, 2},    {1.5f, 3},  {2, 4}, {3, 6},
                                         {3.25f, 6}, {3.5f, 6}, {3.75f, 3}, {4, 0}, {9, 0}};
@@ -109,15 +117,15 @@ static void curves_span_the_life(void **state)
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
         struct kiln_scene *scene = size_scene(same[i]);
         const struct kiln_value *size = &scene->systems[0].look.size;
-        assert_int_equal(size->clock, KILN_CLOCK_LIFE);
+        assert_int_equal(VALUE_CLOCK(size->how), KILN_CLOCK_LIFE);
         static const float expected[][2] = {{0, 0},        {0.25f, 1}, {0.5f, 2},
                                             {0.75f, 1.5f}, {1, 1},     {2, 1}};
         for (size_t j = 0; j < sizeof expected / sizeof *expected; j++)
-            assert_true(value_at(scene->keys, *size, 77, expected[j][0]) == expected[j][1]);
+            assert_true(value_at(scene->keys, *size, clocks_at(77, expected[j][0])) == expected[j][1]);
         kiln_scene_destroy(&scene);
     }
     struct kiln_scene *single = size_scene("{life: [3]}");
-    assert_true(value_at(single->keys, single->systems[0].look.size, 0, 0.5f) == 3);
+    assert_true(value_at(single->keys, single->systems[0].look.size, clocks_at(0, 0.5f)) == 3);
     kiln_scene_destroy(&single);
 }
 
@@ -161,8 +169,8 @@ static void colors_may_be_grey(void **state)
         "kiln: 1\nsystems: {a: {look: {color: 0.5, bloom: {life: [1, [0, 1, 0]]}}}}\n", NULL);
     const struct kiln_look *look = &scene->systems[0].look;
     assert_true(look->color.x.constant == 0.5f && look->color.z.constant == 0.5f);
-    assert_true(value_at(scene->keys, look->bloom.x, 0, 0.5f) == 0.5f);
-    assert_true(value_at(scene->keys, look->bloom.y, 0, 0.5f) == 1);
+    assert_true(value_at(scene->keys, look->bloom.x, clocks_at(0, 0.5f)) == 0.5f);
+    assert_true(value_at(scene->keys, look->bloom.y, clocks_at(0, 0.5f)) == 1);
     kiln_scene_destroy(&scene);
 }
 
@@ -200,20 +208,21 @@ static void sums_are_the_areas(void **state)
         NULL);
     const struct kiln_look *look = &scene->systems[0].look;
     const struct kiln_value *curve = &look->opacity;
+    const struct value_clocks none = clocks_at(0, 0);
     static const double sums[][2] = {{0, 0},       {0.1, 0.04}, {0.2, 0.095},  {0.3, 0.18},
                                      {0.4, 0.255}, {0.5, 0.28}, {0.8, 0.2803}, {1, 0.2807}};
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) {
-        double sum = (double)value_sum_at(scene->keys, *curve, (float)sums[i][0]);
+        double sum = (double)value_sum_at(scene->keys, *curve, none, (float)sums[i][0]);
         if (!(fabs(sum - sums[i][1]) < 1e-6))
             fail_msg("%g up to %g, not %g", sum, sums[i][0], sums[i][1]);
     }
     float before = 0;
     for (uint32_t i = 0; i <= 1 << 20; i++) {
-        float sum = value_sum_at(scene->keys, *curve, (float)i * 0x1p-20f);
+        float sum = value_sum_at(scene->keys, *curve, none, (float)i * 0x1p-20f);
         assert_true(sum >= before);
         before = sum;
     }
-    assert_true(value_sum_at(scene->keys, look->size, 0.5f) == 1.5f);
+    assert_true(value_sum_at(scene->keys, look->size, none, 0.5f) == 1.5f);
     kiln_scene_destroy(&scene);
 }
 

@@ -122,7 +122,7 @@ uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_thr
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
-        float3 strength = kiln_scene_value3(scene, &look->light, moment->view.clock.x);
+        float3 strength = kiln_scene_system_value3(scene, i, &look->light, moment->view.clock.x);
         if (!scene->systems[i].enabled || !(strength.x + strength.y + strength.z > 0.0f))
             continue;
         struct system_lights fire = system_lights_of(moment, i);

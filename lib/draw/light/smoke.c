@@ -54,7 +54,7 @@ static float shadow_of(const struct kiln_moment *moment, uint32_t system)
     const struct kiln_system *s = &moment->scene->systems[system];
     if (!kiln_system_is_smoke(s))
         return 0.0f;
-    return kiln_scene_value(moment->scene, &s->look.shadow, moment->view.clock.x);
+    return kiln_scene_system_value(moment->scene, system, &s->look.shadow, moment->view.clock.x);
 }
 
 static uint32_t chunks_of(const struct kiln_pool *pool, uint32_t system)

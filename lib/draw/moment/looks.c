@@ -19,31 +19,32 @@ static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING
                   LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
               "facings");
 
-/* Holds the place at which looks are sampled: a clip time, and a progress through life, 0 to 1. */
+/* Holds the place at which looks are sampled: the clocks of a moment and of a progress through
+ * life, 0 to 1. */
 struct sampler {
     const struct kiln_scene *scene;
     const struct kiln_observer *observer;
-    float time_s, progress;
+    struct value_clocks clocks;
 };
 
 static float at(const struct sampler *s, const struct kiln_value *value)
 {
-    return value_at(s->scene->keys, *value, s->time_s, s->progress);
+    return value_at(s->scene->keys, *value, s->clocks);
 }
 
 static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 {
-    return value3_at(s->scene->keys, *value, s->time_s, s->progress);
+    return value3_at(s->scene->keys, *value, s->clocks);
 }
 
 /* Returns the mean of a value from birth to the sampler's age. For a spin, the mean times the age
  * is the angle turned so far. */
 static float mean_at(const struct sampler *s, const struct kiln_value *value)
 {
-    bool over_life = value->count > 0 && value->clock == KILN_CLOCK_LIFE;
-    if (!over_life || s->progress <= 0.0f)
+    const float progress = s->clocks.life;
+    if (value->count == 0 || VALUE_CLOCK(value->how) != KILN_CLOCK_LIFE || progress <= 0.0f)
         return at(s, value);
-    return value_sum_at(s->scene->keys, *value, s->progress) / s->progress;
+    return value_sum_at(s->scene->keys, *value, s->clocks, progress) / progress;
 }
 
 static float saturate(float x)
@@ -56,8 +57,8 @@ static float saturate(float x)
 static float fade(const struct sampler *s, const struct kiln_look *look)
 {
     float in = at(s, &look->fade_in), out = at(s, &look->fade_out);
-    float risen = in > 0.0f ? saturate(s->progress / in) : 1.0f;
-    float left = out > 0.0f ? saturate((1.0f - s->progress) / out) : 1.0f;
+    float risen = in > 0.0f ? saturate(s->clocks.life / in) : 1.0f;
+    float left = out > 0.0f ? saturate((1.0f - s->clocks.life) / out) : 1.0f;
     return risen * left;
 }
 
@@ -129,12 +130,12 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
     for (uint32_t i = 0; i < scene->system_count; i++) {
         float4 *rows = table + (size_t)i * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
         for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
-            const struct sampler sampler = {
+            struct sampler sampler = {
                 .scene = scene,
                 .observer = &observer,
-                .time_s = time_s,
-                .progress = (float)k / (float)(KILN_LOOK_SAMPLES - 1),
+                .clocks = value_clocks_at(time_s, random_system_key(scene->seed, i)),
             };
+            sampler.clocks.life = (float)k / (float)(KILN_LOOK_SAMPLES - 1);
             float4 texel[KILN_LOOK_ROWS];
             sample_look(&sampler, &scene->systems[i].look, texel);
             for (uint32_t row = 0; row < KILN_LOOK_ROWS; row++)
@@ -143,40 +144,31 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
     }
 }
 
-static bool varies(const struct kiln_value *value)
+/* Returns what the values of a look use that are in the table. */
+static uint32_t look_uses(const float4 *keys, const struct kiln_look *look)
 {
-    return value->count > 0 && value->clock == KILN_CLOCK_TIME;
-}
-
-static bool varies3(const struct kiln_value3 *value)
-{
-    return varies(&value->x) || varies(&value->y) || varies(&value->z);
-}
-
-static bool range_varies(const struct kiln_range *range)
-{
-    return varies(&range->min) || varies(&range->max);
+    const struct kiln_value *values[] = {
+        &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
+        &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
+        &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
+        &look->line_width,  &look->thickness};
+    const struct kiln_value3 *vectors[] = {&look->color, &look->bloom, &look->axis,
+                                           &look->sphere.color};
+    uint32_t uses = kiln_range_uses(keys, &look->scale) | kiln_range_uses(keys, &look->rotation) |
+                    kiln_range_uses(keys, &look->spin);
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        uses |= kiln_value_uses(keys, values[i]);
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        uses |= kiln_value3_uses(keys, vectors[i]);
+    return uses;
 }
 
 bool kiln_looks_vary(const struct kiln_scene *scene)
 {
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_look *look = &scene->systems[i].look;
-        const struct kiln_value *values[] = {
-            &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
-            &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
-            &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
-            &look->line_width,  &look->thickness};
-        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
-            if (varies(values[k]))
-                return true;
-        }
-        if (varies3(&look->color) || varies3(&look->bloom) || varies3(&look->axis) ||
-            varies3(&look->sphere.color) || range_varies(&look->scale) ||
-            range_varies(&look->rotation) || range_varies(&look->spin))
-            return true;
-    }
-    return false;
+    uint32_t uses = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        uses |= look_uses(scene->keys, &scene->systems[i].look);
+    return (uses & KILN_VALUE_OF_TIME) != 0;
 }
 
 uint32_t kiln_look_pattern(const struct kiln_look *look)

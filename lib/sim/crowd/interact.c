@@ -75,14 +75,14 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     work->rounds = collide->rounds;
     params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
     work->width_m = 2.0f * kiln_scene_contact_radius(scene, system);
-    work->fastest = kiln_scene_value(scene, &collide->fastest, params->time_s);
+    work->fastest = kiln_scene_system_value(scene, system, &collide->fastest, params->time_s);
     params->as_drawn = collide->as_drawn;
-    params->restitution = kiln_scene_value(scene, &collide->restitution, params->time_s);
-    params->apart = kiln_scene_value(scene, &collide->apart, params->time_s);
+    params->restitution = kiln_scene_system_value(scene, system, &collide->restitution, params->time_s);
+    params->apart = kiln_scene_system_value(scene, system, &collide->apart, params->time_s);
     params->radius = collide->radius;
     params->size = look->size;
     params->scale = look->scale;
-    params->friction = kiln_scene_value(scene, &collide->friction, params->time_s);
+    params->friction = kiln_scene_system_value(scene, system, &collide->friction, params->time_s);
 }
 
 /* Fills in the parameters that all kinds of interaction of a system share. */
@@ -104,7 +104,7 @@ static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene
         kiln_scene_interaction(scene, system, KILN_INTERACT_GRAVITY);
     if (!gravity)
         return;
-    const float softening_m = kiln_scene_value(scene, &gravity->softening, work->params.time_s);
+    const float softening_m = kiln_scene_system_value(scene, system, &gravity->softening, work->params.time_s);
     work->pulls = true;
     work->params.adds = work->collides;
     work->params.softening_square = softening_m * softening_m;
@@ -121,30 +121,30 @@ static float view_of(float angle)
     return angle > 6.28318f ? -2.0f : cosine * exact_abs(cosine);
 }
 
-static struct kiln_flock_params flock_at(const struct kiln_scene *scene,
+static struct kiln_flock_params flock_at(const struct kiln_scene *scene, uint32_t system,
                                          const struct kiln_flock *flock, float time_s)
 {
-    const float radius = kiln_scene_value(scene, &flock->radius, time_s);
-    const float horizon_s = kiln_scene_value(scene, &flock->horizon, time_s);
-    const float slowest = kiln_scene_value(scene, &flock->slowest, time_s);
-    const float fastest = kiln_scene_value(scene, &flock->fastest, time_s);
+    const float radius = kiln_scene_system_value(scene, system, &flock->radius, time_s);
+    const float horizon_s = kiln_scene_system_value(scene, system, &flock->horizon, time_s);
+    const float slowest = kiln_scene_system_value(scene, system, &flock->slowest, time_s);
+    const float fastest = kiln_scene_system_value(scene, system, &flock->fastest, time_s);
     struct kiln_flock_params params = {
         .radius = radius,
         .radius_square = radius * radius,
         .per_radius = 1.0f / radius,
-        .per_space = 1.0f / kiln_scene_value(scene, &flock->space, time_s),
+        .per_space = 1.0f / kiln_scene_system_value(scene, system, &flock->space, time_s),
         .speed = 2.0f * fastest,
         .per_speed = 0.5f / fastest,
         .horizon_s = horizon_s,
         .per_horizon = 1.0f / horizon_s,
-        .view = view_of(kiln_scene_value(scene, &flock->view, time_s)),
-        .separation = kiln_scene_value(scene, &flock->separation, time_s),
-        .avoidance = kiln_scene_value(scene, &flock->avoidance, time_s),
-        .cohesion = kiln_scene_value(scene, &flock->cohesion, time_s),
-        .all_cohesion = kiln_scene_value(scene, &flock->all_cohesion, time_s),
-        .alignment = kiln_scene_value(scene, &flock->alignment, time_s),
-        .all_alignment = kiln_scene_value(scene, &flock->all_alignment, time_s),
-        .strongest = kiln_scene_value(scene, &flock->acceleration, time_s),
+        .view = view_of(kiln_scene_system_value(scene, system, &flock->view, time_s)),
+        .separation = kiln_scene_system_value(scene, system, &flock->separation, time_s),
+        .avoidance = kiln_scene_system_value(scene, system, &flock->avoidance, time_s),
+        .cohesion = kiln_scene_system_value(scene, system, &flock->cohesion, time_s),
+        .all_cohesion = kiln_scene_system_value(scene, system, &flock->all_cohesion, time_s),
+        .alignment = kiln_scene_system_value(scene, system, &flock->alignment, time_s),
+        .all_alignment = kiln_scene_system_value(scene, system, &flock->all_alignment, time_s),
+        .strongest = kiln_scene_system_value(scene, system, &flock->acceleration, time_s),
         .slowest = slowest < fastest ? slowest : fastest,
         .fastest = fastest,
     };
@@ -163,7 +163,7 @@ static void add_flock(struct kiln_interact_work *work, const struct kiln_scene *
     struct kiln_interact_params *params = &work->params;
     work->flocks = true;
     params->adds = scene->systems[system].interaction_count > 1;
-    params->flock = flock_at(scene, &flock->flock, params->time_s);
+    params->flock = flock_at(scene, system, &flock->flock, params->time_s);
     params->cell_mask = count_cells(scene->systems[system].capacity) - 1;
     params->cells_per_metre = 1.0f / (params->flock.radius * CELL_SLACK);
 }

@@ -175,6 +175,20 @@ static bool is_near(const struct kiln_chart *chart, float3 at, float radius)
     return near;
 }
 
+/* Returns the clocks of a particle at its mark. */
+static struct value_clocks clocks_of(const struct making *m, const struct kiln_trace *trace,
+                                     const struct mark *mark, float time_s)
+{
+    const uint32_t key = m->step->derived.random_key;
+    struct value_clocks clocks = value_clocks_at(time_s, key);
+    clocks.life = mark->life;
+    clocks.age_s = mark->life * BITS_FLOAT(trace->serial_event.w);
+    clocks.height = mark->at.y;
+    clocks.velocity = trace_vector(trace->end_velocity);
+    clocks.stream = random_stream(key, trace->serial_event.x);
+    return clocks;
+}
+
 static struct kiln_splat make_splat(const struct making *m, const struct kiln_trace *trace)
 {
     struct kiln_splat splat = {.opacity = 0.0f};
@@ -184,23 +198,23 @@ static struct kiln_splat make_splat(const struct making *m, const struct kiln_tr
     const struct kiln_painting *paint = &m->system->paint;
     const float4 *keys = m->scene->keys;
     const float time_s = m->step->time_s + mark.since * m->scene->dt_s;
-    const uint32_t stream = random_stream(m->step->derived.random_key, trace->serial_event.x);
+    const struct value_clocks clocks = clocks_of(m, trace, &mark, time_s);
     const float radius_m =
-        random_between(stream, RANDOM_PAINT, value_at(keys, paint->radius.min, time_s, 0.0f),
-                       value_at(keys, paint->radius.max, time_s, 0.0f));
+        random_between(clocks.stream, RANDOM_PAINT, value_at(keys, paint->radius.min, clocks),
+                       value_at(keys, paint->radius.max, clocks));
     const float radius =
         radius_m / (m->start.metres + (m->end.metres - m->start.metres) * mark.since);
     const float3 at = to_mesh(m, mark.at, 1.0f, mark.since);
     if (!is_near(m->chart, at, radius))
         return splat;
     const float3 normal = to_mesh(m, mark.normal, 0.0f, mark.since);
-    const float3 color = value3_at(keys, m->system->look.color, time_s, mark.life);
-    const float soft = value_at(keys, paint->soft, time_s, mark.life);
+    const float3 color = value3_at(keys, m->system->look.color, clocks);
+    const float soft = value_at(keys, paint->soft, clocks);
     /* A limit keeps the slope at the rim finite. */
     const float outer = exact_max(soft * (2.0f - soft), 1e-3f);
     splat = (struct kiln_splat){
         .position = {at.x, at.y, at.z},
-        .opacity = exact_clamp(value_at(keys, paint->opacity, time_s, mark.life), 0.0f, 1.0f),
+        .opacity = exact_clamp(value_at(keys, paint->opacity, clocks), 0.0f, 1.0f),
         .normal = {normal.x, normal.y, normal.z},
         .radius_squared = radius * radius,
         .color = {exact_clamp(color.x, 0.0f, 1.0f), exact_clamp(color.y, 0.0f, 1.0f),

@@ -26,7 +26,8 @@ struct kiln_block {
     uint32_t alone[KILN_LANES];       /* one of enum alone */
     uint32_t touching[KILN_LANES];    /* 1: the lane may touch the present collider */
     uint32_t lost[KILN_LANES];        /* 1: the particle is in a place where it dies */
-    kiln_floats life;                 /* progress of life at the start of the step */
+    kiln_floats life, age_s;          /* progress of life, and age, at the start of the step */
+    struct kiln_lane_clocks clocks;   /* of the values of the forces */
     struct kiln_floats3 start;        /* velocity at the start, pushes included */
     kiln_floats radius;               /* of particles with pushes */
     struct kiln_floats3 at;           /* where the forces are evaluated */

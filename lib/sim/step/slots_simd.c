@@ -11,7 +11,7 @@
 static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
                                const struct kiln_block *b, float *y)
 {
-    kiln_lanes_values(sim->value_keys, v, KILN_CLOCK_LIFE, b->life, sim->step->time_s, y);
+    kiln_lanes_values(sim->value_keys, v, &b->clocks, y);
 }
 
 static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v,
@@ -28,8 +28,18 @@ static inline void find_ages(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const float dt_s = sim->step->derived.dt_s;
     kiln_lanes_find_ages(&b->lanes, sim->value_keys, sim->step->derived, sim->step->step, 0.0f);
-    for (uint32_t i = 0; i < KILN_LANES; i++)
-        b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        b->age_s[i] = b->lanes.age_s[i] - dt_s;
+        b->life[i] = particle_progress(b->age_s[i], b->lanes.life_s[i]);
+    }
+    b->clocks = (struct kiln_lane_clocks){
+        .same_time_s = forces_time_s(sim, sim->step->time_s),
+        .life = b->life,
+        .age_s = b->age_s,
+        .position = &b->at,
+        .stream = b->lanes.stream,
+        .system = sim->step->derived.random_key,
+    };
 }
 
 static inline struct force_input input_at(const struct kiln_sim *sim, const struct kiln_block *b,
@@ -120,8 +130,10 @@ static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, u
 
 /* Both ways to integrate call this, so it is not inlined into them: it is most of their code. */
 __attribute__((flatten, noinline)) static void add_forces(const struct kiln_sim *sim,
-                                                          struct kiln_block *b)
+                                                          struct kiln_block *b,
+                                                          const struct kiln_floats3 *velocity)
 {
+    b->clocks.velocity = velocity;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
         b->pull[i] = 0.0f;
@@ -134,6 +146,7 @@ __attribute__((flatten, noinline)) static void add_forces(const struct kiln_sim 
 static inline void limit_speed(const struct kiln_sim *sim, struct kiln_block *b,
                                struct kiln_floats3 *velocity)
 {
+    b->clocks.velocity = velocity;
     for (uint32_t k = 0; k < sim->step->force_count; k++) {
         const struct kiln_force_params *force = &sim->step->forces[k];
         if (force->kind != FORCE_LIMIT)
@@ -181,7 +194,7 @@ static inline void fly(const struct kiln_sim *sim, struct kiln_block *b)
     const float time_s = sim->step->derived.dt_s;
     for (uint32_t i = 0; i < KILN_LANES; i++)
         kiln_set3(&b->at, i, particle_position(record_at(b, i)));
-    add_forces(sim, b);
+    add_forces(sim, b, &b->start);
     for (uint32_t i = 0; i < KILN_LANES; i++)
         kiln_set3(&b->velocity, i, forces_apply(effect_at(b, i), kiln_get3(&b->start, i), time_s));
     if (sim->step->forces_do & FORCES_SLOW) {
@@ -271,7 +284,7 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *
         stages_set(s, i, stages_start(particle_position(record_at(b, i)), kiln_get3(&b->start, i)));
     for (uint32_t stage = 0; stage < count; stage++) {
         b->at = s->at;
-        add_forces(sim, b);
+        add_forces(sim, b, &s->moving);
         take_stage(b, stage, count, time_s);
         if (sim->step->forces_do & FORCES_LIMIT)
             limit_speed(sim, b, &s->moving);

@@ -8,7 +8,7 @@
 #include "sim/world/colliders.h"
 
 struct uses {
-    uint keys, forces, emitters, collide, births;
+    uint keys, clocks, forces, emitters, collide, births;
 };
 
 static uint bit(uint part, bool used)
@@ -16,56 +16,52 @@ static uint bit(uint part, bool used)
     return used ? 1u << part : 0u;
 }
 
-static bool has_keys(const struct kiln_value *value)
+/* Adds a value that kernels evaluate, whatever it varies over. uses: kiln_value_uses. */
+static void add_value(struct uses *all, uint keyed, uint uses)
 {
-    return value->count > 0;
+    all->keys |= bit(keyed, uses != 0);
+    all->clocks |= uses;
 }
 
-static bool has_keys3(const struct kiln_value3 *value)
+/* Adds a value of a step, which the host evaluates if it is the same for all particles. */
+static void add_curve(struct uses *all, uint keyed, uint uses)
 {
-    return has_keys(&value->x) || has_keys(&value->y) || has_keys(&value->z);
+    if (uses & KILN_VALUE_OF_PARTICLES)
+        add_value(all, keyed, uses);
 }
 
-/* Values of a step are evaluated by the host but for curves over a particle's life. */
-static bool has_curve(const struct kiln_value *value)
-{
-    return has_keys(value) && value->clock == KILN_CLOCK_LIFE;
-}
-
-static bool has_curve3(const struct kiln_value3 *value)
-{
-    return has_curve(&value->x) || has_curve(&value->y) || has_curve(&value->z);
-}
-
-static uint keys_of_births(const struct kiln_step_params *step)
+static void add_births(struct uses *uses, const float4 *keys, const struct kiln_step_params *step)
 {
     const struct kiln_emit_params *emit = &step->emit;
-    const struct kiln_range *life = &step->derived.life, *speed = &emit->speed;
-    return bit(KEYED_LIFE, has_keys(&life->min) || has_keys(&life->max)) |
-           bit(KEYED_SPEED, has_keys(&speed->min) || has_keys(&speed->max)) |
-           bit(KEYED_ORIGIN, has_keys3(&emit->origin)) |
-           bit(KEYED_DIRECTION, has_keys3(&emit->direction)) |
-           bit(KEYED_SIZE, has_keys3(&emit->size)) | bit(KEYED_ANGLE, has_keys(&emit->angle)) |
-           bit(KEYED_RADIUS, has_keys(&emit->radius)) |
-           bit(KEYED_INHERIT, has_keys(&emit->inherit)) | bit(KEYED_TURN, has_keys(&emit->turn));
+    add_value(uses, KEYED_LIFE, kiln_range_uses(keys, &step->derived.life));
+    add_value(uses, KEYED_SPEED, kiln_range_uses(keys, &emit->speed));
+    add_value(uses, KEYED_ORIGIN, kiln_value3_uses(keys, &emit->origin));
+    add_value(uses, KEYED_DIRECTION, kiln_value3_uses(keys, &emit->direction));
+    add_value(uses, KEYED_SIZE, kiln_value3_uses(keys, &emit->size));
+    add_value(uses, KEYED_ANGLE, kiln_value_uses(keys, &emit->angle));
+    add_value(uses, KEYED_RADIUS, kiln_value_uses(keys, &emit->radius));
+    add_value(uses, KEYED_INHERIT, kiln_value_uses(keys, &emit->inherit));
+    add_value(uses, KEYED_TURN, kiln_value_uses(keys, &emit->turn));
+    uses->clocks |= kiln_value_uses(keys, &step->family.rate);
 }
 
-static uint keys_of_impacts(const struct kiln_collide *collide)
+static void add_impacts(struct uses *uses, const float4 *keys, const struct kiln_collide *collide)
 {
-    return bit(KEYED_RANDOMNESS, has_curve(&collide->randomness)) |
-           bit(KEYED_SLOWDOWN, has_curve(&collide->slowdown)) |
-           bit(KEYED_RESTITUTION, has_curve(&collide->restitution)) |
-           bit(KEYED_FRICTION, has_curve(&collide->friction));
+    add_curve(uses, KEYED_RANDOMNESS, kiln_value_uses(keys, &collide->randomness));
+    add_curve(uses, KEYED_SLOWDOWN, kiln_value_uses(keys, &collide->slowdown));
+    add_curve(uses, KEYED_RESTITUTION, kiln_value_uses(keys, &collide->restitution));
+    add_curve(uses, KEYED_FRICTION, kiln_value_uses(keys, &collide->friction));
 }
 
-static uint keys_of_force(const struct kiln_force *force)
+static void add_force(struct uses *uses, const float4 *keys, const struct kiln_force *force)
 {
-    return bit(KEYED_FORCE_VECTOR, has_curve3(&force->vector)) |
-           bit(KEYED_FORCE_SECOND, has_curve3(&force->second)) |
-           bit(KEYED_FORCE_STRENGTH, has_curve(&force->strength)) |
-           bit(KEYED_FORCE_PULL, has_curve(&force->pull)) |
-           bit(KEYED_FORCE_QUADRATIC, has_curve(&force->quadratic)) |
-           bit(KEYED_FORCE_SCALE, has_curve(&force->scale));
+    add_curve(uses, KEYED_FORCE_VECTOR, kiln_value3_uses(keys, &force->vector));
+    add_curve(uses, KEYED_FORCE_SECOND, kiln_value3_uses(keys, &force->second));
+    add_curve(uses, KEYED_FORCE_STRENGTH, kiln_value_uses(keys, &force->strength));
+    add_curve(uses, KEYED_FORCE_PULL, kiln_value_uses(keys, &force->pull));
+    add_curve(uses, KEYED_FORCE_QUADRATIC, kiln_value_uses(keys, &force->quadratic));
+    add_curve(uses, KEYED_FORCE_SCALE, kiln_value_uses(keys, &force->scale));
+    uses->forces |= 1u << (uint)force->kind;
 }
 
 uint kiln_sim_colliders_used(const struct kiln_scene *scene)
@@ -83,15 +79,14 @@ uint kiln_sim_colliders_used(const struct kiln_scene *scene)
 static void add_system(struct uses *uses, const struct kiln_scene *scene,
                        const struct kiln_step_params *step, const struct kiln_system *system)
 {
-    uses->keys |= keys_of_births(step) | keys_of_impacts(&system->collide);
+    add_births(uses, scene->keys, step);
+    add_impacts(uses, scene->keys, &system->collide);
     uses->emitters |= 1u << step->emit.shape;
     uses->births |= 1u << step->family.born_of;
     if (kiln_sim_colliders_used(scene) != 0)
         uses->collide |= 1u << step->collide;
-    for (uint32_t i = 0; i < system->force_count; i++) {
-        uses->keys |= keys_of_force(&system->forces[i]);
-        uses->forces |= 1u << (uint)system->forces[i].kind;
-    }
+    for (uint32_t i = 0; i < system->force_count; i++)
+        add_force(uses, scene->keys, &system->forces[i]);
 }
 
 void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene,
@@ -104,9 +99,9 @@ void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene
             add_system(&uses, scene, step, &scene->systems[i]);
     }
     kiln_text_add(defines,
-                  "#define USES_KEYS %uu\n#define USES_FORCES %uu\n#define USES_EMITTERS %uu\n"
+                  "#define USES_KEYS %uu\n#define USES_CLOCKS %uu\n#define USES_FORCES %uu\n#define USES_EMITTERS %uu\n"
                   "#define USES_COLLIDERS %uu\n#define USES_COLLIDE %uu\n"
                   "#define USES_BIRTHS %uu\n#define USES_INTEGRATION %uu\n",
-                  uses.keys, uses.forces, uses.emitters, kiln_sim_colliders_used(scene),
+                  uses.keys, uses.clocks, uses.forces, uses.emitters, kiln_sim_colliders_used(scene),
                   uses.collide, uses.births, (uint)scene->integration);
 }

@@ -226,12 +226,11 @@ static void find_spin(struct kiln_step_params *params, const struct kiln_scene *
         kiln_scene_interaction(scene, system, KILN_INTERACT_COLLIDE);
     if (!params->spins)
         return;
-    params->spin_low = kiln_scene_value(scene, &collide->turning.min, time_s);
-    params->spin_high = kiln_scene_value(scene, &collide->turning.max, time_s);
-    params->rolling = kiln_scene_value(scene, &collide->rolling, time_s);
-    params->spin_axis = FLOAT4(kiln_scene_value(scene, &collide->axis.x, time_s),
-                               kiln_scene_value(scene, &collide->axis.y, time_s),
-                               kiln_scene_value(scene, &collide->axis.z, time_s), 0.0f);
+    params->spin_low = kiln_scene_system_value(scene, system, &collide->turning.min, time_s);
+    params->spin_high = kiln_scene_system_value(scene, system, &collide->turning.max, time_s);
+    params->rolling = kiln_scene_system_value(scene, system, &collide->rolling, time_s);
+    const float3 axis = kiln_scene_system_value3(scene, system, &collide->axis, time_s);
+    params->spin_axis = FLOAT4(axis.x, axis.y, axis.z, 0.0f);
 }
 
 bool kiln_sim_is_family(const struct kiln_step_params *params)
@@ -254,42 +253,47 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     fill_spins(params, scene);
 }
 
-/* Evaluates a value that varies over time at time_s; a curve over life stays as it is. */
-static struct kiln_value at_time(const struct kiln_scene *scene, struct kiln_value value,
-                                 float time_s)
+/* A moment of a system, for which the host evaluates values. */
+struct moment {
+    const struct kiln_scene *scene;
+    uint32_t system;
+    float time_s;
+};
+
+/* Evaluates a value that is the same for all particles; another one stays as it is. */
+static struct kiln_value at_time(const struct moment *m, struct kiln_value value)
 {
-    if (value.count != 0 && value.clock == KILN_CLOCK_LIFE)
+    if (kiln_value_uses(m->scene->keys, &value) & KILN_VALUE_OF_PARTICLES)
         return value;
-    return (struct kiln_value){.constant = kiln_scene_value(scene, &value, time_s)};
+    return (struct kiln_value){
+        .constant = kiln_scene_system_value(m->scene, m->system, &value, m->time_s)};
 }
 
-static struct kiln_value3 at_time3(const struct kiln_scene *scene, struct kiln_value3 value,
-                                   float time_s)
+static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 value)
 {
-    return (struct kiln_value3){at_time(scene, value.x, time_s), at_time(scene, value.y, time_s),
-                                at_time(scene, value.z, time_s)};
+    return (struct kiln_value3){at_time(m, value.x), at_time(m, value.y), at_time(m, value.z)};
 }
 
-static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
+static struct kiln_force_params force_at_time(const struct moment *m,
                                               const struct kiln_sim_grids *grids,
-                                              const struct kiln_force *force, float time_s)
+                                              const struct kiln_force *force)
 {
     struct kiln_force_params params = {
         .kind = (uint)force->kind,
         .octaves = force->octaves,
         .profile = (uint)force->profile,
         .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
-        .vector = at_time3(scene, force->vector, time_s),
-        .second = at_time3(scene, force->second, time_s),
-        .strength = at_time(scene, force->strength, time_s),
-        .pull = at_time(scene, force->pull, time_s),
-        .quadratic = at_time(scene, force->quadratic, time_s),
-        .scale = at_time(scene, force->scale, time_s),
-        .inward = kiln_scene_value(scene, &force->inward, time_s),
-        .lift = kiln_scene_value(scene, &force->lift, time_s),
+        .vector = at_time3(m, force->vector),
+        .second = at_time3(m, force->second),
+        .strength = at_time(m, force->strength),
+        .pull = at_time(m, force->pull),
+        .quadratic = at_time(m, force->quadratic),
+        .scale = at_time(m, force->scale),
+        .inward = kiln_scene_system_value(m->scene, m->system, &force->inward, m->time_s),
+        .lift = kiln_scene_system_value(m->scene, m->system, &force->lift, m->time_s),
     };
     if (force->mode == KILN_WIND_ADD) {
-        params.added = (float)((double)scene->rate.num / scene->rate.den);
+        params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
         params.pull = (struct kiln_value){.constant = 0.0f};
     }
     return params;
@@ -383,12 +387,13 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
     for (uint32_t i = 0; i < params->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         struct kiln_step_params *p = &params->systems[i];
-        p->randomness = at_time(scene, system->collide.randomness, start_s);
-        p->slowdown = at_time(scene, system->collide.slowdown, start_s);
-        p->restitution = at_time(scene, system->collide.restitution, start_s);
-        p->friction = at_time(scene, system->collide.friction, start_s);
+        const struct moment start = {scene, i, start_s}, acting = {scene, i, forces_s};
+        p->randomness = at_time(&start, system->collide.randomness);
+        p->slowdown = at_time(&start, system->collide.slowdown);
+        p->restitution = at_time(&start, system->collide.restitution);
+        p->friction = at_time(&start, system->collide.friction);
         for (uint32_t k = 0; k < system->force_count; k++)
-            p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], forces_s);
+            p->forces[k] = force_at_time(&acting, params->grids, &system->forces[k]);
     }
     kiln_sim_colliders_fill(&params->surroundings, scene, params->grids, start_s, end_s);
     return true;

@@ -1,0 +1,152 @@
+/* This file has the tables of how a file may write a value that varies: the clocks, and what may
+ * stand beside them. */
+#include "option/value_form.h"
+
+#include <string.h>
+
+#include "option/animated.h"
+
+/* The longest distance and the highest speed that a key may have, in metres and m/s. */
+#define FARTHEST 1000000
+
+#define AXIS(name_, dimension_, min_, max_)                                                        \
+    {                                                                                              \
+        .name = name_, .type = &kiln_type_number, .dimension = dimension_, .min = min_,            \
+        .max = max_                                                                                \
+    }
+
+const struct kiln_option kiln_option_time = AXIS("time", KILN_SECONDS, -100000, 1000000);
+
+const struct kiln_value_clock kiln_value_clocks[KILN_VALUE_CLOCKS] = {
+    {.name = "keys",
+     .clock = KILN_CLOCK_TIME,
+     .allowed = KILN_ALLOW_TIME,
+     .axis = AXIS("time", KILN_SECONDS, -100000, 1000000),
+     .is_short = true},
+    {.name = "life",
+     .clock = KILN_CLOCK_LIFE,
+     .allowed = KILN_ALLOW_LIFE,
+     .axis = AXIS("life", KILN_FRACTION, 0, 1),
+     .takes_list = true,
+     .is_short = true},
+    {.name = "age",
+     .clock = KILN_CLOCK_AGE,
+     .allowed = KILN_ALLOW_AGE,
+     .axis = AXIS("age", KILN_SECONDS, 0, 1000000),
+     .is_short = true},
+    {.name = "speed",
+     .clock = KILN_CLOCK_SPEED,
+     .allowed = KILN_ALLOW_SPEED,
+     .axis = AXIS("speed", KILN_SPEED, 0, FARTHEST)},
+    {.name = "height",
+     .clock = KILN_CLOCK_HEIGHT,
+     .allowed = KILN_ALLOW_HEIGHT,
+     .axis = AXIS("height", KILN_METRES, -FARTHEST, FARTHEST)},
+    {.name = "distance",
+     .clock = KILN_CLOCK_DISTANCE,
+     .allowed = KILN_ALLOW_DISTANCE,
+     .axis = AXIS("distance", KILN_METRES, 0, FARTHEST)},
+    {.name = "random",
+     .clock = KILN_CLOCK_RANDOM,
+     .allowed = KILN_ALLOW_RANDOM,
+     .axis = AXIS("quantile", KILN_FRACTION, 0, 1),
+     .takes_list = true,
+     .is_short = true},
+    {.name = "choose",
+     .clock = KILN_CLOCK_RANDOM,
+     .allowed = KILN_ALLOW_RANDOM,
+     .axis = AXIS("quantile", KILN_FRACTION, 0, 1),
+     .takes_list = true,
+     .only_list = true,
+     .is_short = true},
+    {.name = "noise",
+     .clock = KILN_CLOCK_NOISE,
+     .allowed = KILN_ALLOW_NOISE,
+     .axis = AXIS("noise", KILN_FRACTION, 0, 1),
+     .takes_list = true,
+     .is_short = true},
+};
+
+const char *const kiln_value_eases[] = {
+    [VALUE_LINEAR] = "linear", [VALUE_STEP] = "step", [VALUE_SMOOTH] = "smooth",
+    [VALUE_IN] = "in",         [VALUE_OUT] = "out",   NULL,
+};
+
+const char *const kiln_value_repeats[] = {
+    [VALUE_HOLDS] = "none",
+    [VALUE_LOOPS] = "loop",
+    [VALUE_MIRRORS] = "mirror",
+    NULL,
+};
+
+const struct kiln_option kiln_value_period = AXIS("period", KILN_SECONDS, 0.001, 1000000);
+const struct kiln_option kiln_value_octaves = {
+    .name = "octaves", .type = &kiln_type_integer, .min = 1, .max = VALUE_NOISE_OCTAVES};
+const struct kiln_option kiln_value_seed = {
+    .name = "seed", .type = &kiln_type_integer, .min = 0, .max = 65535};
+const struct kiln_option kiln_value_weight = AXIS("weight", KILN_PLAIN, 0, 1000000);
+
+/* Returns the clocks that the parts of a value may have. What multiplies a value that is summed up
+ * over life is the same for the whole life. */
+static unsigned clocks_of_parts(const struct kiln_option *option)
+{
+    const unsigned clocks = option->clocks & ~(unsigned)KILN_ALLOW_PARTS;
+    return option->clocks & KILN_ALLOW_FORMS ? clocks : clocks & ~(unsigned)KILN_ALLOW_LIFE;
+}
+
+struct kiln_option kiln_value_times_row(const struct kiln_option *option)
+{
+    return (struct kiln_option){.name = "times",
+                                .type = &kiln_type_value,
+                                .min = -1000000,
+                                .max = 1000000,
+                                .clocks = clocks_of_parts(option),
+                                .draws = option->draws};
+}
+
+struct kiln_option kiln_value_plus_row(const struct kiln_option *option)
+{
+    struct kiln_option row = *option;
+    row.special_word = NULL;
+    row.max = option->max - option->min;
+    row.min = -row.max;
+    row.clocks = clocks_of_parts(option);
+    return row;
+}
+
+const struct kiln_value_clock *kiln_value_clock_named(const char *name)
+{
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        if (strcmp(kiln_value_clocks[i].name, name) == 0)
+            return &kiln_value_clocks[i];
+    }
+    return NULL;
+}
+
+bool kiln_node_is_animated(const struct kiln_node *node)
+{
+    for (const struct kiln_node *entry = node->first; node->kind == KILN_NODE_MAP && entry;
+         entry = entry->next) {
+        const struct kiln_value_clock *clock = kiln_value_clock_named(entry->key->text);
+        if (clock && clock->is_short)
+            return true;
+    }
+    return false;
+}
+
+void kiln_value_describe_clocks(const struct kiln_option *option, struct kiln_text *out)
+{
+    const char *names[KILN_VALUE_CLOCKS];
+    size_t count = 0;
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        if (option->clocks & kiln_value_clocks[i].allowed)
+            names[count++] = kiln_value_clocks[i].name;
+    }
+    kiln_text_add(out, "a constant");
+    for (size_t i = 0; i < count; i++)
+        kiln_text_add(out, "%s%s",
+                      i == 0           ? " or a mapping with "
+                      : i + 1 == count ? " or "
+                                       : ", ",
+                      names[i]);
+}
