@@ -1,6 +1,4 @@
 /* This file prints values as a file writes them, so that reading the text gives the same bits. */
-#include <string.h>
-
 #include "option/animated.h"
 #include "option/value_form.h"
 
@@ -102,18 +100,7 @@ static void add_besides(struct kiln_printer *printer, const struct kiln_option *
 /* Returns whether the values of components can be written as one. */
 static bool are_whole(const float4 *keys, const struct kiln_value *values)
 {
-    bool whole = values[0].count > 0;
-    for (unsigned i = 1; i < 3; i++) {
-        whole = whole && values[i].count == values[0].count && values[i].how == values[0].how &&
-                values[i].first > values[i - 1].first;
-        for (uint32_t k = 0; whole && k < values[0].count; k++)
-            whole = keys[values[i].first + k].x == keys[values[0].first + k].x;
-        /* what multiplies them is one value, of which each of them has a copy */
-        whole = whole &&
-                (!(values[0].how & VALUE_TIMES) ||
-                 memcmp(&keys[values[i].first - 2], &keys[values[0].first - 2], sizeof *keys) == 0);
-    }
-    return whole;
+    return kiln_value3_is_whole(keys, &(struct kiln_value3){values[0], values[1], values[2]});
 }
 
 /* Appends a value of 1 or 3 components. */

@@ -2,6 +2,8 @@
  * and between which limits its results are. */
 #include "option/values.h"
 
+#include <string.h>
+
 /* Returns whether a value has a part: its own curve, what multiplies it, what is added to it. */
 static bool has_part(const struct kiln_value *value, uint32_t part)
 {
@@ -45,6 +47,24 @@ uint32_t kiln_value3_uses(const float4 *keys, const struct kiln_value3 *value)
 uint32_t kiln_range_uses(const float4 *keys, const struct kiln_range *range)
 {
     return kiln_value_uses(keys, &range->min) | kiln_value_uses(keys, &range->max);
+}
+
+/* Returns whether a component of a vector goes with the first one. */
+static bool goes_with(const float4 *keys, const struct kiln_value *first,
+                      const struct kiln_value *other)
+{
+    bool whole = other->count == first->count && other->how == first->how;
+    for (uint32_t k = 0; whole && k < first->count; k++)
+        whole = keys[other->first + k].x == keys[first->first + k].x;
+    /* what multiplies them is one value, of which each of them has a copy */
+    return whole && (!(first->how & VALUE_TIMES) ||
+                     memcmp(&keys[other->first - 2], &keys[first->first - 2], sizeof *keys) == 0);
+}
+
+bool kiln_value3_is_whole(const float4 *keys, const struct kiln_value3 *value)
+{
+    return value->x.count > 0 && goes_with(keys, &value->x, &value->y) &&
+           goes_with(keys, &value->x, &value->z);
 }
 
 struct limits {

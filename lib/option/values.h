@@ -40,6 +40,10 @@ uint32_t kiln_value_uses(const float4 *keys, const struct kiln_value *value);
 uint32_t kiln_value3_uses(const float4 *keys, const struct kiln_value3 *value);
 uint32_t kiln_range_uses(const float4 *keys, const struct kiln_range *range);
 
+/* Returns whether the components of a vector vary as a whole: by the same clock, with keys at the
+ * same places, and multiplied by the same value. */
+bool kiln_value3_is_whole(const float4 *keys, const struct kiln_value3 *value);
+
 /* Return a limit that a value never goes over, or below: its greatest or least key, and for values
  * of several parts the limit that follows from those of the parts. */
 float kiln_value_most(const float4 *keys, const struct kiln_value *value);

@@ -23,6 +23,26 @@
 #define KILN_LOOK_OTHER  8 /* second colour of a sphere's pattern, rgb; lit */
 #define KILN_LOOK_ROWS   9
 
+/* Values over other clocks than life lie behind the rows of all systems
+ * (lib/draw/moment/look_values.h). A system that has some has two rows with the texels below, and
+ * rows of samples.
+ *
+ *    texel r     of row r of the look, KILN_LOOK_*: the first of its values; how many it has
+ *    LOOK_VALUE_TEXEL(v), the values; each has LOOK_VALUE_TEXELS:
+ *       +0         bit mask of the components that it multiplies; bit mask of its parts; row of
+ *                  light or 0
+ *       +1         least and greatest result; first x of the row of light; samples for each 1 of x
+ *       +2 + 2 p   part p: clock + 16 times LOOK_PART_*; draw; row; number of steps, or octaves
+ *       +3 + 2 p   first x; samples for each 1 of x; length of a repetition; period of a noise, s
+ */
+#define LOOK_VALUE_TEXELS    8
+#define LOOK_VALUE_TEXEL(v)  (16 + (v)*LOOK_VALUE_TEXELS)
+#define LOOK_PROGRAM_ROWS    2
+#define LOOK_PART_STEPS      1u /* each texel holds until the x of the next, which its w has */
+#define LOOK_PART_LOOPS      2u
+#define LOOK_PART_MIRRORS    4u
+#define LOOK_PART_FLAG_SHIFT 4u
+
 /* enum kiln_shape and enum kiln_facing of the scene. */
 #define LOOK_POINT     1u
 #define LOOK_LINE      2u
@@ -43,6 +63,7 @@ struct kiln_draw_look {
     uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
     uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame, or */
                  /* a stretch dims billboards */
+    uint4 values; /* row of the table in which the values over other clocks begin; 0: none */
     uint4 turn;  /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
                  /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */

@@ -270,7 +270,9 @@ static void draw_pass(struct subject *s, const struct pass *pass)
                                .lighting = draw.lighting,
                                .table = calloc(KILN_LOOK_TEXELS, sizeof(float4))};
     assert_non_null(scene.table);
-    kiln_looks_fill(s->scene, scene.atlas, scene.looks);
+    static struct kiln_look_program programs[KILN_MAX_SYSTEMS];
+    kiln_look_programs_fill(s->scene, programs);
+    kiln_looks_fill(s->scene, scene.atlas, programs, scene.looks);
     kiln_looks_sample(s->scene, draw.view->clock.x, scene.table);
     struct true_picture truth;
     true_picture_init(&truth, s->scene->width, s->scene->height);

@@ -178,6 +178,7 @@ static struct fixture *open_scene(const char *path, bool coarse)
     f->pass = (struct kiln_sprite_pass){.scene = raster->scene,
                                         .looks = raster->moment.looks,
                                         .table = raster->moment.look_table,
+                                        .programs = raster->moment.look_programs,
                                         .records = f->records,
                                         .view = &raster->moment.view,
                                         .backdrop = &raster->light,

@@ -29,6 +29,19 @@ struct system_lights {
     struct kiln_light_sums lights[MAX_CHUNKS][KILN_MAX_FIRE_LIGHTS];
 };
 
+/* Finds the light of each particle of a block whose look has values over other clocks than life. */
+static void find_own_glow(const struct kiln_appearance_system *system, uint32_t first,
+                          const struct kiln_appearance_block *block, struct kiln_floats3 *own)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        struct kiln_appearance particle;
+        float3 glow = {0.0f, 0.0f, 0.0f};
+        if (block->alive[i] && kiln_appearance_at(system, first + i, &particle))
+            glow = kiln_appearance_glow(system, &particle.clocks);
+        kiln_set3(own, i, glow);
+    }
+}
+
 /* Gathers some chunks; each consists of whole blocks. */
 static void gather_chunks(void *context, size_t begin, size_t end, uint32_t worker)
 {
@@ -36,11 +49,16 @@ static void gather_chunks(void *context, size_t begin, size_t end, uint32_t work
     struct system_lights *fire = context;
     const uint64_t blocks = (fire->system.used + KILN_LANES - 1) / KILN_LANES;
     struct kiln_appearance_block block;
+    struct kiln_floats3 own;
+    struct kiln_glow glow = fire->glow;
+    glow.own = fire->system.program->count > 0 ? &own : NULL;
     for (size_t chunk = begin; chunk < end; chunk++) {
         uint64_t last = blocks * (chunk + 1) / fire->chunks;
         for (uint64_t k = blocks * chunk / fire->chunks; k < last; k++) {
             fire->find(&fire->system, (uint32_t)k * KILN_LANES, &block);
-            fire->loops->gather_fire(&block, &fire->glow, CELL_FILL, fire->light_count,
+            if (fire->system.program->count > 0)
+                find_own_glow(&fire->system, (uint32_t)k * KILN_LANES, &block, &own);
+            fire->loops->gather_fire(&block, &glow, CELL_FILL, fire->light_count,
                                      fire->lights[chunk]);
         }
     }
@@ -49,8 +67,9 @@ static void gather_chunks(void *context, size_t begin, size_t end, uint32_t work
 static void sample_glow(struct system_lights *fire)
 {
     for (uint32_t i = 0; i < KILN_LOOK_SAMPLES; i++) {
-        float3 glow =
-            kiln_appearance_glow(&fire->system, (float)i / (float)(KILN_LOOK_SAMPLES - 1));
+        struct value_clocks clocks = value_clocks_at(0.0f, 0);
+        clocks.life = (float)i / (float)(KILN_LOOK_SAMPLES - 1);
+        const float3 glow = kiln_appearance_glow(&fire->system, &clocks);
         fire->glow.red[i] = glow.x;
         fire->glow.green[i] = glow.y;
         fire->glow.blue[i] = glow.z;

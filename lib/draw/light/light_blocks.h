@@ -8,6 +8,8 @@
 /* Holds kiln_appearance_glow at the samples of a look. */
 struct kiln_glow {
     float red[KILN_LOOK_SAMPLES], green[KILN_LOOK_SAMPLES], blue[KILN_LOOK_SAMPLES];
+    /* that of each particle of the block, where it depends on more than life; or NULL */
+    const struct kiln_floats3 *own;
 };
 
 /* Holds sums over the particles of one light. */

@@ -28,6 +28,7 @@ static inline double sum_of(const partial_sums *of)
 struct fire {
     alignas(64) kiln_floats place; /* place among the lights, 0 to light_count - 1 */
     kiln_floats red, green, blue, energy;
+    kiln_floats sent; /* m^2 of a particle's square that send light */
     struct kiln_floats3 offset; /* from `origin`, so that squares stay small */
     float3 origin;
     float place_min, place_max; /* of the places */
@@ -46,10 +47,17 @@ static inline void find_fire(struct fire *f, const struct kiln_appearance_block 
         f->red[i] = sent * (r[0] + (r[1] - r[0]) * at.part);
         f->green[i] = sent * (g[0] + (g[1] - g[0]) * at.part);
         f->blue[i] = sent * (l[0] + (l[1] - l[0]) * at.part);
-        f->energy[i] = (f->red[i] + f->green[i]) + f->blue[i];
+        f->sent[i] = sent;
         f->place[i] = b->progress[i] * (float)(light_count - 1);
         kiln_set3(&f->offset, i, float3_sub(kiln_get3(&b->position, i), f->origin));
     }
+    for (uint32_t i = 0; i < KILN_LANES && glow->own; i++) {
+        f->red[i] = f->sent[i] * glow->own->x[i];
+        f->green[i] = f->sent[i] * glow->own->y[i];
+        f->blue[i] = f->sent[i] * glow->own->z[i];
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++)
+        f->energy[i] = (f->red[i] + f->green[i]) + f->blue[i];
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         f->place_min = exact_min(f->place_min, f->place[i]);
         f->place_max = exact_max(f->place_max, f->place[i]);

@@ -183,7 +183,7 @@ static void collect_mesh(struct kiln_solid_shadow *shadow,
     if (!place)
         return;
     const struct instance_axes axes =
-        kiln_appearance_axes(system, slot, particle->progress, look->mesh.orient);
+        kiln_appearance_axes(system, slot, &particle->clocks, look->mesh.orient);
     const float3 columns[3] = {axes.x, axes.y, axes.z};
     place->system = number;
     for (int c = 0; c < 3; c++) {

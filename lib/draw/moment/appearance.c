@@ -18,14 +18,17 @@ static float4 mix4(float4 a, float4 b, float t)
 }
 
 float4 kiln_appearance_look(const struct kiln_appearance_system *system, uint32_t row,
-                            float progress)
+                            const struct value_clocks *clocks)
 {
-    float x = progress * (float)(KILN_LOOK_SAMPLES - 1);
+    float x = clocks->life * (float)(KILN_LOOK_SAMPLES - 1);
     uint32_t i = exact_uint(x);
     if (i > KILN_LOOK_SAMPLES - 2)
         i = KILN_LOOK_SAMPLES - 2;
     const float4 *samples = system->rows + (size_t)row * KILN_LOOK_SAMPLES;
-    return mix4(samples[i], samples[i + 1], x - (float)i);
+    const float4 look = mix4(samples[i], samples[i + 1], x - (float)i);
+    if (system->program->count == 0)
+        return look;
+    return kiln_look_multiply(system->table, system->program, row, clocks, look);
 }
 
 struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *moment,
@@ -36,6 +39,10 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
         .derived = kiln_scene_derived(moment->scene, index),
         .keys = moment->scene->keys,
         .records = moment->records + slots->base,
+        .table = moment->look_table,
+        .program = &moment->look_programs[index],
+        .eye = {moment->view.eye.x, moment->view.eye.y, moment->view.eye.z},
+        .time_s = moment->view.clock.x,
         .rows = moment->look_table + (size_t)index * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES,
         .used = kiln_pool_used(slots),
         .step = moment->view.clock_step.x,
@@ -43,6 +50,21 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
         .dt_s = moment->scene->dt_s,
         .spins = moment->spins && slots->spins ? moment->spins + slots->first_spin : NULL,
     };
+}
+
+struct value_clocks kiln_appearance_clocks(const struct kiln_appearance_system *system,
+                                           uint32_t slot, float age_s, float progress)
+{
+    const struct kiln_particle record = system->records[slot];
+    const float3 position = particle_position(record);
+    struct value_clocks clocks = value_clocks_at(system->time_s, system->derived.random_key);
+    clocks.life = progress;
+    clocks.age_s = age_s;
+    clocks.height = position.y;
+    clocks.distance = float3_length(float3_sub(position, system->eye));
+    clocks.velocity = particle_velocity(record);
+    clocks.stream = particle_stream(system->derived, record);
+    return clocks;
 }
 
 bool kiln_appearance_at(const struct kiln_appearance_system *system, uint32_t slot,
@@ -54,51 +76,50 @@ bool kiln_appearance_at(const struct kiln_appearance_system *system, uint32_t sl
     float age_s = particle_age_before(record, system->step, system->back, system->dt_s);
     float progress =
         particle_progress(age_s, particle_life_s(system->keys, system->derived, record));
-    float4 shape = kiln_appearance_look(system, KILN_LOOK_SHAPE, progress);
-    float4 spread = kiln_appearance_look(system, KILN_LOOK_SPREAD, progress);
-    float scale = random_unit(particle_stream(system->derived, record), RANDOM_SCALE);
+    const struct value_clocks clocks = kiln_appearance_clocks(system, slot, age_s, progress);
+    float4 shape = kiln_appearance_look(system, KILN_LOOK_SHAPE, &clocks);
+    float4 spread = kiln_appearance_look(system, KILN_LOOK_SPREAD, &clocks);
+    float scale = random_unit(clocks.stream, RANDOM_SCALE);
     *particle = (struct kiln_appearance){
         .position = particle_position(record),
         .radius = 0.5f * shape.x * (spread.x + (spread.y - spread.x) * scale),
         .progress = progress,
         .opacity = shape.z,
+        .clocks = clocks,
     };
     return true;
 }
 
 /* Returns the angle of a particle from its own rotation and spin, without collisions, rad. */
-static float spin_angle(const struct kiln_appearance_system *system, struct kiln_particle record,
-                        uint32_t stream, float progress)
+static float spin_angle(const struct kiln_appearance_system *system,
+                        const struct value_clocks *clocks)
 {
-    return instance_angle(stream, kiln_appearance_look(system, KILN_LOOK_TURN, progress),
-                          kiln_appearance_look(system, KILN_LOOK_SPREAD, progress),
-                          particle_age_before(record, system->step, system->back, system->dt_s));
+    return instance_angle(clocks->stream, kiln_appearance_look(system, KILN_LOOK_TURN, clocks),
+                          kiln_appearance_look(system, KILN_LOOK_SPREAD, clocks), clocks->age_s);
 }
 
 float4 kiln_appearance_pose(const struct kiln_appearance_system *system, uint32_t slot,
-                            float progress)
+                            const struct value_clocks *clocks)
 {
     if (system->spins)
         return spin_unit(spin_pose(system->spins[slot].pose));
-    const struct kiln_particle record = system->records[slot];
-    const uint32_t stream = particle_stream(system->derived, record);
-    return instance_pose(stream, spin_angle(system, record, stream, progress));
+    return instance_pose(clocks->stream, spin_angle(system, clocks));
 }
 
 struct instance_axes kiln_appearance_axes(const struct kiln_appearance_system *system,
-                                          uint32_t slot, float progress, uint32_t orient)
+                                          uint32_t slot, const struct value_clocks *clocks,
+                                          uint32_t orient)
 {
     if (system->spins && orient == ORIENT_SPIN)
-        return instance_posed(kiln_appearance_pose(system, slot, progress));
-    const struct kiln_particle record = system->records[slot];
-    const uint32_t stream = particle_stream(system->derived, record);
-    const float angle = spin_angle(system, record, stream, progress);
-    return instance_axes_of(orient, particle_velocity(record), angle, stream);
+        return instance_posed(kiln_appearance_pose(system, slot, clocks));
+    return instance_axes_of(orient, particle_velocity(system->records[slot]),
+                            spin_angle(system, clocks), clocks->stream);
 }
 
-float3 kiln_appearance_glow(const struct kiln_appearance_system *system, float progress)
+float3 kiln_appearance_glow(const struct kiln_appearance_system *system,
+                            const struct value_clocks *clocks)
 {
-    float4 hot = kiln_appearance_look(system, KILN_LOOK_HOT, progress);
-    float4 cool = kiln_appearance_look(system, KILN_LOOK_COOL, progress);
+    float4 hot = kiln_appearance_look(system, KILN_LOOK_HOT, clocks);
+    float4 cool = kiln_appearance_look(system, KILN_LOOK_COOL, clocks);
     return (float3){0.5f * (hot.x + cool.x), 0.5f * (hot.y + cool.y), 0.5f * (hot.z + cool.z)};
 }

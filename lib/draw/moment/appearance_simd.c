@@ -24,6 +24,18 @@ static inline void load(struct kiln_appearance_block *b,
     kiln_lanes_load(&b->lanes, rest);
 }
 
+/* Finds radius and opacity of lane i of a system whose look has values over other clocks than
+ * life. */
+static inline void find_own(const struct kiln_appearance_system *system, uint32_t first,
+                            struct kiln_appearance_block *b, uint32_t i)
+{
+    struct kiln_appearance particle;
+    if (!b->alive[i] || !kiln_appearance_at(system, first + i, &particle))
+        return;
+    b->radius[i] = particle.radius;
+    b->opacity[i] = particle.opacity;
+}
+
 __attribute__((flatten)) void
 KILN_SIMD_NAME(kiln_appearance_find)(const struct kiln_appearance_system *system, uint32_t first,
                                      struct kiln_appearance_block *b)
@@ -33,6 +45,7 @@ KILN_SIMD_NAME(kiln_appearance_find)(const struct kiln_appearance_system *system
     const float *shape = &system->rows[(size_t)KILN_LOOK_SHAPE * KILN_LOOK_SAMPLES].x;
     const float *spread = &system->rows[(size_t)KILN_LOOK_SPREAD * KILN_LOOK_SAMPLES].x;
     const struct kiln_derived_params derived = system->derived;
+    const bool own = system->program->count > 0;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_particle p = kiln_lanes_record(&b->lanes, i);
         float progress = particle_progress(b->lanes.age_s[i], b->lanes.life_s[i]);
@@ -48,4 +61,6 @@ KILN_SIMD_NAME(kiln_appearance_find)(const struct kiln_appearance_system *system
         b->radius[i] = alive ? radius : 0.0f;
         b->opacity[i] = alive ? opacity : 0.0f;
     }
+    for (uint32_t i = 0; i < KILN_LANES && own; i++)
+        find_own(system, first, b, i);
 }

@@ -9,9 +9,6 @@
 #include "asset/atlas/blackbody.h"
 #include "shared/exact.h"
 
-/* The temperature of a cell's cool parts divided by the temperature of its hot parts. */
-static const float COOL_SHARE = 0.72f;
-
 static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
                   LOOK_MESH == KILN_SHAPE_MESH,
               "shapes");
@@ -29,12 +26,14 @@ struct sampler {
 
 static float at(const struct sampler *s, const struct kiln_value *value)
 {
+    if (kiln_look_value_is_own(s->scene->keys, value))
+        return 1.0f;
     return value_at(s->scene->keys, *value, s->clocks);
 }
 
 static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 {
-    return value3_at(s->scene->keys, *value, s->clocks);
+    return (float3){at(s, &value->x), at(s, &value->y), at(s, &value->z)};
 }
 
 /* Returns the mean of a value from birth to the sampler's age. For a spin, the mean times the age
@@ -42,7 +41,8 @@ static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 static float mean_at(const struct sampler *s, const struct kiln_value *value)
 {
     const float progress = s->clocks.life;
-    if (value->count == 0 || VALUE_CLOCK(value->how) != KILN_CLOCK_LIFE || progress <= 0.0f)
+    if (value->count == 0 || VALUE_CLOCK(value->how) != KILN_CLOCK_LIFE || progress <= 0.0f ||
+        kiln_look_value_is_own(s->scene->keys, value))
         return at(s, value);
     return value_sum_at(s->scene->keys, *value, s->clocks, progress) / progress;
 }
@@ -88,9 +88,12 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     float3 other = at3(s, &look->sphere.color);
     row[KILN_LOOK_COVER] = additive ? covers_none : cover;
     row[KILN_LOOK_OTHER] = additive ? covers_none : (float4){other.x, other.y, other.z, cover.w};
-    if (kelvin > 0.0f) {
+    if (kiln_look_value_is_own(s->scene->keys, &look->temperature)) {
+        row[KILN_LOOK_HOT] = (float4){tint.x, tint.y, tint.z, near_fade};
+        row[KILN_LOOK_COOL] = (float4){tint.x, tint.y, tint.z, cycles};
+    } else if (kelvin > 0.0f) {
         row[KILN_LOOK_HOT] = blackbody_light(s, tint, kelvin, near_fade);
-        row[KILN_LOOK_COOL] = blackbody_light(s, tint, COOL_SHARE * kelvin, cycles);
+        row[KILN_LOOK_COOL] = blackbody_light(s, tint, KILN_LOOK_COOL_SHARE * kelvin, cycles);
     } else {
         float3 glow = additive ? tint : (float3){0.0f, 0.0f, 0.0f};
         row[KILN_LOOK_HOT] = (float4){glow.x, glow.y, glow.z, near_fade};
@@ -225,9 +228,12 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
 }
 
 void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
+                     const struct kiln_look_program programs[KILN_MAX_SYSTEMS],
                      struct kiln_draw_look looks[KILN_MAX_SYSTEMS])
 {
     memset(looks, 0, KILN_MAX_SYSTEMS * sizeof *looks);
-    for (uint32_t i = 0; i < scene->system_count; i++)
+    for (uint32_t i = 0; i < scene->system_count; i++) {
         looks[i] = make_look(scene, i, &atlas->systems[i]);
+        looks[i].values.x = programs[i].count > 0 ? programs[i].row : 0;
+    }
 }

@@ -16,12 +16,17 @@ bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
         goto fail;
     if (!kiln_instances_init(&moment->instances, scene, error))
         goto fail;
-    if (atlas)
-        kiln_looks_fill(scene, atlas, moment->looks);
-    moment->look_table = calloc((size_t)KILN_LOOK_TEXELS, sizeof *moment->look_table);
+    moment->look_rows = kiln_look_rows(scene);
+    moment->look_table =
+        calloc((size_t)moment->look_rows * KILN_LOOK_SAMPLES, sizeof *moment->look_table);
+    moment->look_programs = calloc(KILN_MAX_SYSTEMS, sizeof *moment->look_programs);
+    if (moment->look_programs)
+        kiln_look_programs_fill(scene, moment->look_programs);
+    if (moment->look_programs && atlas)
+        kiln_looks_fill(scene, atlas, moment->look_programs, moment->looks);
     if (device)
         moment->gl = kiln_moment_gl_create(device);
-    if (moment->look_table && (moment->gl || !device))
+    if (moment->look_table && moment->look_programs && (moment->gl || !device))
         return true;
     kiln_error_no_memory(error, "the looks");
 
@@ -36,7 +41,9 @@ void kiln_moment_finish(struct kiln_moment *moment)
     kiln_instances_finish(&moment->instances);
     kiln_meshes_finish(&moment->meshes);
     free(moment->look_table);
+    free(moment->look_programs);
     moment->look_table = NULL;
+    moment->look_programs = NULL;
 }
 
 void kiln_moment_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
@@ -44,8 +51,10 @@ void kiln_moment_footprint(const struct kiln_scene *scene, struct kiln_footprint
     const struct kiln_moment *m = NULL;
     kiln_meshes_footprint(scene, footprint);
     kiln_instances_footprint(scene, footprint);
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, (uint64_t)KILN_LOOK_TEXELS,
-                       sizeof *m->look_table);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES,
+                       (uint64_t)kiln_look_rows(scene) * KILN_LOOK_SAMPLES, sizeof *m->look_table);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, KILN_MAX_SYSTEMS,
+                       sizeof *m->look_programs);
 }
 
 /* Makes the pool's records and spins available on the host. */
@@ -73,6 +82,7 @@ void kiln_moment_set_time(struct kiln_moment *moment, struct kiln_instant instan
     moment->sun = kiln_sun_frame_at(scene, time_s);
     if (moment->look_changes == 0 || kiln_looks_vary(scene)) {
         kiln_looks_sample(scene, time_s, moment->look_table);
+        kiln_look_programs_sample(scene, moment->look_programs, time_s, moment->look_table);
         moment->look_changes++;
     }
     kiln_meshes_pose(&moment->meshes, time_s);

@@ -7,6 +7,7 @@
 #include "base/footprint.h"
 #include "base/simd.h"
 #include "draw/moment/instances.h"
+#include "draw/moment/look_values.h"
 #include "draw/moment/looks.h"
 #include "draw/moment/meshes.h"
 #include "draw/moment/shapes.h"
@@ -22,12 +23,14 @@ struct kiln_moment {
     enum kiln_simd simd;             /* the width of vectors on this machine */
     struct kiln_instances instances; /* the meshes that particles are drawn as */
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
+    struct kiln_look_program *look_programs; /* of each system, by kiln_look_programs_fill */
+    uint32_t look_rows;                      /* of the table */
     struct kiln_moment_gl *gl; /* buffers and textures in GL (moment_gl.h); NULL: no device */
 
     /* kiln_moment_set_time sets these members. */
     struct kiln_view view;
     struct kiln_sun_frame sun;
-    float4 *look_table;             /* KILN_LOOK_TEXELS texels, by kiln_looks_sample */
+    float4 *look_table;             /* look_rows rows, by kiln_looks_sample and look_values.h */
     uint64_t look_changes;          /* a number that grows when the table changes */
     struct kiln_meshes meshes;      /* the backdrop's meshes: posed, with bounds */
     struct kiln_draw_shapes shapes; /* the backdrop's objects, by kiln_shapes_fill */

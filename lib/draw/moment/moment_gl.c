@@ -11,7 +11,7 @@
 #include "gpu/buffer.h"
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 96 + 16 * KILN_MAX_TEXTURES, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 112 + 16 * KILN_MAX_TEXTURES, "std140");
 static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
 
 struct kiln_moment_gl {
@@ -20,6 +20,18 @@ struct kiln_moment_gl {
     GLuint look_table;         /* texture, KILN_LOOK_SAMPLES wide; 0: nothing is made yet */
     uint64_t uploaded_changes; /* the moment's look_changes when the texture was uploaded */
 };
+
+void kiln_moment_gl_defines(const struct kiln_scene *scene, struct kiln_text *defines)
+{
+    uint32_t clocks = 1u << KILN_CLOCK_TIME;
+    const uint32_t base_rows = (scene->system_count ? scene->system_count : 1) * KILN_LOOK_ROWS;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        clocks |= kiln_range_uses(scene->keys, &scene->systems[i].emit.life);
+    if (clocks != 1u << KILN_CLOCK_TIME)
+        kiln_text_add(defines, "#define USES_CLOCKS %uu\n", clocks);
+    if (kiln_look_rows(scene) > base_rows)
+        kiln_text_add(defines, "#define LOOK_VALUES 1\n");
+}
 
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)
 {
@@ -92,11 +104,9 @@ static bool make_buffers(const struct kiln_moment *moment, struct kiln_error *er
            kiln_buffer_upload(&gl->keys, keys, error);
 }
 
-/* Returns the rows of the look table that the scene's systems have; a texture has one at least. */
 static GLsizei count_rows(const struct kiln_moment *moment)
 {
-    const uint32_t systems = moment->scene->system_count;
-    return (GLsizei)((systems ? systems : 1) * KILN_LOOK_ROWS);
+    return (GLsizei)moment->look_rows;
 }
 
 static bool make(const struct kiln_moment *moment, struct kiln_error *error)

@@ -3,6 +3,8 @@
  * entries of other systems, since only the device knows where in the list they are. */
 #include "draw/solids/instances_gl.h"
 
+#include "draw/moment/moment_gl.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -27,6 +29,7 @@ static bool create_program(struct kiln_instances_gl *m, struct kiln_error *error
     kiln_shape_defines(&features, &defines);
     if (kiln_scene_spins(m->scene))
         kiln_text_add(&defines, "#define SPINS 1\n");
+    kiln_moment_gl_defines(m->scene, &defines);
     m->program = kiln_program_create_defined(m->device, &files, &defines, error);
     if (!m->program)
         return false;

@@ -195,15 +195,15 @@ static void set3(float to[3], float4 from)
 /* Writes the second colour and the pose of a system with a pattern into the sphere, for all its
  * particles. They have no effect where the sphere is not drawn. */
 static void make_pattern(const struct convert_job *m, uint32_t number, uint32_t slot,
-                         float progress, struct kiln_drawn_sphere *s)
+                         const struct value_clocks *clocks, struct kiln_drawn_sphere *s)
 {
     const struct kiln_appearance_system *system = &m->systems[number];
     const uint32_t pattern = m->patterns[number];
     if (pattern == LOOK_PLAIN)
         return;
     s->segments = pattern == LOOK_STRIPE ? -1.0f : (float)(pattern - LOOK_SEGMENTS);
-    set3(s->other, kiln_appearance_look(system, KILN_LOOK_OTHER, progress));
-    const float4 pose = kiln_appearance_pose(system, slot, progress);
+    set3(s->other, kiln_appearance_look(system, KILN_LOOK_OTHER, clocks));
+    const float4 pose = kiln_appearance_pose(system, slot, clocks);
     s->pose[0] = pose.x;
     s->pose[1] = pose.y;
     s->pose[2] = pose.z;
@@ -223,11 +223,11 @@ static void make_sphere(const struct convert_job *m, const struct kiln_appearanc
     s->part = radius * radius / (s->radius * s->radius);
     if (!(radius > 0.0f) || depth - s->radius <= view->eye.w)
         return;
-    float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, particle->progress);
+    float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, &particle->clocks);
     set3(s->albedo, cover);
     s->lit = cover.w;
-    set3(s->glow, kiln_appearance_look(system, KILN_LOOK_HOT, particle->progress));
-    set3(s->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, particle->progress));
+    set3(s->glow, kiln_appearance_look(system, KILN_LOOK_HOT, &particle->clocks));
+    set3(s->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, &particle->clocks));
     bound_ball(view, s->center, s->radius, &s->x, rows);
 }
 
@@ -262,17 +262,17 @@ static void make_instance(const struct convert_job *m, uint32_t number, uint32_t
     if (!(size > 0.0f) || depth + reach <= view->eye.w)
         return;
     const struct instance_axes axes =
-        kiln_appearance_axes(system, slot, particle->progress, look->mesh.orient);
+        kiln_appearance_axes(system, slot, &particle->clocks, look->mesh.orient);
     place_axes(view, &axes, reach / mesh->reach, d);
     for (int i = 0; i < 3; i++)
         d->to_view[i][3] = center[i];
-    float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, particle->progress);
+    float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, &particle->clocks);
     set3(d->albedo, cover);
     d->lit = cover.w;
     d->shade = size * look->mesh.shade;
     d->part = size * size * mesh->reach * mesh->reach / (reach * reach);
-    set3(d->glow, kiln_appearance_look(system, KILN_LOOK_HOT, particle->progress));
-    set3(d->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, particle->progress));
+    set3(d->glow, kiln_appearance_look(system, KILN_LOOK_HOT, &particle->clocks));
+    set3(d->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, &particle->clocks));
     d->first = mesh->first;
     d->triangles = mesh->triangles;
     bound_ball(view, center, reach, &d->x, rows);
@@ -299,7 +299,7 @@ static void make_solids(void *context, size_t begin, size_t end, uint32_t worker
             make_instance(m, number, slot, &particle, instance, &m->stage->ranges[i]);
         else
             make_sphere(m, system, &particle, &m->stage->spheres[i], &m->stage->ranges[i]);
-        make_pattern(m, number, slot, particle.progress, &m->stage->spheres[i]);
+        make_pattern(m, number, slot, &particle.clocks, &m->stage->spheres[i]);
     }
 }
 

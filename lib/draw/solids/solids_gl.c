@@ -51,6 +51,7 @@ static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scen
         kiln_shape_defines(&features, &defines);
         kiln_text_add(&defines, "%s%s", kiln_looks_patterned(scene) ? "#define PATTERN 1\n" : "",
                       kiln_scene_spins(scene) ? "#define SPINS 1\n" : "");
+        kiln_moment_gl_defines(scene, &defines);
         stage->cast = kiln_program_create_defined(stage->device, &cast, &defines, error);
         if (!stage->cast)
             return false;

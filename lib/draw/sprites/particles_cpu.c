@@ -368,9 +368,15 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
     return true;
 }
 
-/* Writes a system's bloom weights and returns true if they are the same at any age. */
-static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
+/* Writes a system's bloom weights and returns true if they are the same for all particles. */
+static bool steady_bloom(const struct kiln_moment *moment, uint32_t system, float weights[3])
 {
+    const float4 *table = moment->look_table;
+    const struct kiln_look_program *program = &moment->look_programs[system];
+    for (uint32_t i = 0; i < program->count; i++) {
+        if (program->values[i].target == KILN_LOOK_BLOOM)
+            return false;
+    }
     const float4 *row =
         table + ((size_t)system * KILN_LOOK_ROWS + KILN_LOOK_BLOOM) * KILN_LOOK_SAMPLES;
     for (int i = 1; i < KILN_LOOK_SAMPLES; i++) {
@@ -400,7 +406,7 @@ static enum kiln_tile_glow choose_glow(const struct kiln_particles_draw *draw, f
     const struct kiln_moment *moment = draw->moment;
     for (uint32_t i = 0; i < moment->scene->system_count; i++) {
         float weights[3];
-        const bool steady = steady_bloom(moment->look_table, i, weights);
+        const bool steady = steady_bloom(moment, i, weights);
         if (steady && !glows(weights))
             continue;
         if (!steady || (glow == KILN_TILE_GLOW_APART && memcmp(all, weights, sizeof weights) != 0))
@@ -419,7 +425,7 @@ bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint64_t sys
         return false;
     for (uint32_t i = 0; i < moment->scene->system_count; i++) {
         const bool drawn = systems >> i & 1, adds = moment->looks[i].flags.x != 0;
-        if (drawn && (!steady_bloom(moment->look_table, i, weights) || glows(weights) != adds))
+        if (drawn && (!steady_bloom(moment, i, weights) || glows(weights) != adds))
             return false;
     }
     return true;
@@ -465,6 +471,7 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
         .scene = tiles->scene,
         .looks = draw->moment->looks,
         .table = draw->moment->look_table,
+        .programs = draw->moment->look_programs,
         .records = draw->moment->records,
         .view = draw->view,
         .backdrop = draw->backdrop,

@@ -42,19 +42,19 @@ static bool needs_shapes(const struct kiln_scene *scene)
     return false;
 }
 
-void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size)
+void kiln_geometry_defines(const struct kiln_scene *scene, struct kiln_text *defines)
 {
-    snprintf(out, size, "#define SHAPES %d\n%s%s%s%s", needs_shapes(scene) ? 1 : 0,
-             kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "",
-             kiln_lamp_shade_exists(scene) ? "#define LAMP_SHADE 1\n" : "",
-             kiln_scene_has_smoke(scene) ? "" : "#define NO_SMOKE 1\n",
-             kiln_scene_has_lamps(scene) ? "" : "#define NO_LAMPS 1\n");
+    kiln_text_add(defines, "#define SHAPES %d\n%s%s%s%s", needs_shapes(scene) ? 1 : 0,
+                  kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "",
+                  kiln_lamp_shade_exists(scene) ? "#define LAMP_SHADE 1\n" : "",
+                  kiln_scene_has_smoke(scene) ? "" : "#define NO_SMOKE 1\n",
+                  kiln_scene_has_lamps(scene) ? "" : "#define NO_LAMPS 1\n");
+    kiln_moment_gl_defines(scene, defines);
 }
 
-static bool create_program(struct kiln_geometry *stage, struct kiln_error *error)
+static bool create_program(struct kiln_geometry *stage, const char *defines,
+                           struct kiln_error *error)
 {
-    char defines[KILN_GEOMETRY_DEFINES];
-    kiln_geometry_defines(stage->scene, defines, sizeof defines);
     bool instanced = stage->technique == KILN_RASTER_INSTANCED;
     const struct kiln_program_params program = {
         .vertex = instanced ? "draw/sprites/particles_instanced.vert"
@@ -91,7 +91,12 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
     /* Technique `tiled` draws by this stage for post.compose: oit. */
     bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED ||
                  (technique == KILN_RASTER_TILED && scene->post.compose == KILN_COMPOSE_OIT);
-    if (draws && !create_program(stage, error)) {
+    struct kiln_text defines = {0};
+    kiln_geometry_defines(scene, &defines);
+    bool ok = !defines.failed || kiln_error_no_memory(error, "particles");
+    ok = ok && (!draws || create_program(stage, defines.data, error));
+    kiln_text_free(&defines);
+    if (!ok) {
         kiln_geometry_destroy(&stage);
         return NULL;
     }

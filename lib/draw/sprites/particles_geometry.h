@@ -17,11 +17,9 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            struct kiln_error *error);
 void kiln_geometry_destroy(struct kiln_geometry **stage);
 
-#define KILN_GEOMETRY_DEFINES 128 /* bytes of the text of kiln_geometry_defines */
-
-/* Writes the "#define" lines of shaders that draw a scene's particles
+/* Appends the "#define" lines of shaders that draw a scene's particles
  * (shaders/draw/sprites/particle.glsl). */
-void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size);
+void kiln_geometry_defines(const struct kiln_scene *scene, struct kiln_text *defines);
 
 /* Binds the data of kiln_moment_bind, and the lighting, the atlas and its motion, and the scene's
  * depth, which shaders/draw/sprites/shade.glsl reads. */

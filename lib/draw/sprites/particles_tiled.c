@@ -56,13 +56,13 @@ struct kiln_tiled {
 static GLuint create_program(struct kiln_tiled *tiled, const struct kiln_scene *scene,
                              const char *file, struct kiln_error *error)
 {
-    char drawing[KILN_GEOMETRY_DEFINES], defines[KILN_GEOMETRY_DEFINES + 96];
-    kiln_geometry_defines(scene, drawing, sizeof drawing);
-    snprintf(defines, sizeof defines,
-             "%s#define TILED_EDGE %u\n#define TILED_ROWS %u\n#define TILED_GROUP_SIZE %u\n",
-             drawing, tiled->tiling.edge, tiled->tiling.rows, tiled->group_size);
-    const struct kiln_program_params params = {.compute = file, .defines = defines};
-    return kiln_program_create(tiled->device, &params, error);
+    struct kiln_text defines = {0};
+    kiln_geometry_defines(scene, &defines);
+    kiln_text_add(&defines,
+                  "#define TILED_EDGE %u\n#define TILED_ROWS %u\n#define TILED_GROUP_SIZE %u\n",
+                  tiled->tiling.edge, tiled->tiling.rows, tiled->group_size);
+    const struct kiln_program_params params = {.compute = file};
+    return kiln_program_create_defined(tiled->device, &params, &defines, error);
 }
 
 static bool create_programs(struct kiln_tiled *tiled, const struct kiln_scene *scene,

@@ -7,6 +7,7 @@
 #include <assert.h>
 
 #include "base/real.h"
+#include "draw/sprites/look_lanes.h"
 #include "draw/sprites/sprite.h"
 #include "draw/vector/particle_math.h"
 #include "shared/billboard.h"
@@ -24,6 +25,8 @@ struct sprite_lanes {
     const struct kiln_sprite_pass *pass;
     const struct kiln_draw_look *look;
     const float *rows; /* the system's rows of the look table */
+    const struct kiln_look_program *program; /* what multiplies them */
+    struct clock_lanes clocks;               /* set if the program has any values */
     vi mixes_cells;    /* mask: the system has at least KILN_CELL_MIXED_LEAST slots */
     vi samples_floats; /* mask: the system has at most KILN_CELL_FINE_MOST slots */
     vi visible;        /* mask: the lane's particle may be visible */
@@ -49,11 +52,14 @@ struct sprite_lanes {
     bool has_extras;                     /* some of the sprites that were made last have an extra */
 };
 
-/* Returns a row of the look at the particles' age. */
+/* Returns a row of the look of the particles. */
 SIMD struct columns look_row(const struct sprite_lanes *p, uint32_t row)
 {
-    return columns_load_lerp(p->rows + (size_t)row * KILN_LOOK_SAMPLES * 4, &p->samples,
-                             p->sample_part);
+    struct columns look = columns_load_lerp(p->rows + (size_t)row * KILN_LOOK_SAMPLES * 4,
+                                            &p->samples, p->sample_part);
+    if (p->program->count > 0)
+        multiply_lanes(p->pass->table, p->program, row, &p->clocks, &look);
+    return look;
 }
 
 /* Transforms a direction from the world to view space. */

@@ -122,6 +122,19 @@ static void color_sprites(struct sprite_lanes *p)
 
 /* ---- from particle to sprite ----------------------------------------------------------------- */
 
+static void read_clocks(struct sprite_lanes *p)
+{
+    p->clocks = (struct clock_lanes){
+        .life = p->progress,
+        .age_s = p->age_s,
+        .height = p->record.position.y,
+        .distance = vf_sqrt(vf3_dot(p->center, p->center)),
+        .velocity = p->record.velocity,
+        .stream = p->stream,
+        .time_s = p->pass->view->clock.x,
+    };
+}
+
 static void read_particles(struct sprite_lanes *p)
 {
     const struct kiln_sprite_pass *pass = p->pass;
@@ -140,6 +153,8 @@ static void read_particles(struct sprite_lanes *p)
         (struct vf3){vf3_map(rows[0], p->record.position), vf3_map(rows[1], p->record.position),
                      vf3_map(rows[2], p->record.position)};
     p->depth = -p->center.z;
+    if (p->program->count > 0)
+        read_clocks(p);
 }
 
 /* Computes the opacity of particles from their look at their age and from the near fade. */
@@ -286,6 +301,7 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
     p.has_extras = false;
     for (uint32_t system = 0; system < system_count; system++) {
         p.look = &pass->looks[system];
+        p.program = &pass->programs[system];
         p.rows = &pass->table[(size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES].x;
         const uint32_t end = first[system + 1];
         const uint32_t capacity = pass->scene->systems[system].capacity;

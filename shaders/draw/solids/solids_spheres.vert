@@ -5,6 +5,7 @@
 // variant:
 // variant: PATTERN=1
 // variant: PATTERN=1 SPINS=1
+// variant: PATTERN=1 LOOK_VALUES=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 
@@ -26,6 +27,7 @@ void main()
     uint stream = particle_stream(looks[system].derived, record);
     float age = particle_age_before(record, view.clock_step.x, view.within.x, view.clock.y);
     float life = particle_progress(age, particle_life_s(looks[system].derived, record));
+    LOOK_OF(system, record, stream, age, life)
     vec4 shape = look_at(system, KILN_LOOK_SHAPE, life);
     vec4 spread = look_at(system, KILN_LOOK_SPREAD, life);
 

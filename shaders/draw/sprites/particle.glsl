@@ -150,6 +150,7 @@ void make_billboard(uint entry)
     uint stream = particle_stream(looks[system].derived, record);
     float age = particle_age_before(record, view.clock_step.x, view.within.x, view.clock.y);
     float life = particle_progress(age, particle_life_s(looks[system].derived, record));
+    LOOK_OF(system, record, stream, age, life)
     vec4 shape = look_at(system, KILN_LOOK_SHAPE, life);
     vec4 spread = look_at(system, KILN_LOOK_SPREAD, life);
     vec4 turn = look_at(system, KILN_LOOK_TURN, life);

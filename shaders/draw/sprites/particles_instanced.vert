@@ -4,6 +4,7 @@
 // variant: SHAPES=0
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
+// variant: SHAPES=1 LOOK_VALUES=1
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"

@@ -5,6 +5,7 @@
 // variant: SHAPES=0 NO_SMOKE=1 NO_LAMPS=1 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=16
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1 TILED_EDGE=16
+// variant: SHAPES=1 LOOK_VALUES=1 TILED_EDGE=16
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
