@@ -40,8 +40,6 @@ const char *kiln_option_clocks(const struct kiln_option *option)
     case KILN_WHEN_DRAWN:
         return "over every clock";
     case KILN_SUMMED_UP:
-        return "over life or at random";
-    case KILN_SUMMED_UP | KILN_ALLOW_TIME:
         return "over time, over life or at random";
     default:
         return NULL;

@@ -111,7 +111,7 @@ enum {
     /* evaluated for a particle when it is drawn */
     KILN_WHEN_DRAWN = KILN_OVER_LIFE | KILN_ALLOW_DISTANCE,
     /* summed up over a particle's life */
-    KILN_SUMMED_UP = KILN_ALLOW_LIFE | KILN_ALLOW_RANDOM | KILN_ALLOW_PARTS,
+    KILN_SUMMED_UP = KILN_ALLOW_TIME | KILN_ALLOW_LIFE | KILN_ALLOW_RANDOM | KILN_ALLOW_PARTS,
 };
 
 struct kiln_option {

@@ -17,7 +17,6 @@
 #define LIFE(n)    KILN_OVER_LIFE, .draws = n
 #define DRAWN(n)   KILN_WHEN_DRAWN, .draws = n
 #define SUMMED(n)  KILN_SUMMED_UP, .draws = n
-#define SUMMED_OVER_TIME(n) KILN_SUMMED_UP | KILN_ALLOW_TIME, .draws = n
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 

@@ -86,12 +86,12 @@ const struct kiln_option kiln_value_seed = {
     .name = "seed", .type = &kiln_type_integer, .min = 0, .max = 65535};
 const struct kiln_option kiln_value_weight = AXIS("weight", KILN_PLAIN, 0, 1000000);
 
-/* Returns the clocks that the parts of a value may have. What multiplies a value that is summed up
- * over life is the same for the whole life. */
+/* Returns the clocks that the parts of a value may have. Those of a value that is summed up over
+ * life are the same for the whole life. */
 static unsigned clocks_of_parts(const struct kiln_option *option)
 {
     const unsigned clocks = option->clocks & ~(unsigned)KILN_ALLOW_PARTS;
-    return option->clocks & KILN_ALLOW_FORMS ? clocks : clocks & ~(unsigned)KILN_ALLOW_LIFE;
+    return option->clocks & KILN_ALLOW_FORMS ? clocks : clocks & (unsigned)KILN_ALLOW_RANDOM;
 }
 
 struct kiln_option kiln_value_times_row(const struct kiln_option *option)

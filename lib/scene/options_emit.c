@@ -137,8 +137,8 @@ TABLE(bounce) = {
 
 TABLE(trail) = {
     VALUE(MOTION, "rate", parent.rate, KILN_PER_SECOND, 0, 1e6, SUMMED(11), "20",
-          "Particles born a second while a particle of the parent lives. The rate may vary over "
-          "the life of the parent's particle."),
+          "Particles born a second while a particle of the parent lives. `life` and `random` are "
+          "those of the parent's particle."),
     ALIGN(aligns_in_flight, TO_VELOCITY),
     END,
 };

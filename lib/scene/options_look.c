@@ -172,7 +172,7 @@ PUBLIC_TABLE(kiln_options_look) = {
           "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
           "it."),
     RANGE(
-        LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), SUMMED_OVER_TIME(33), "0 deg/s",
+        LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), SUMMED(33), "0 deg/s",
         "Angular speed of a particle. Speed and direction are chosen at random for each particle."),
     VALUE(LOOK, "cycles", cycles, KILN_PLAIN, 0, 1000, BIRTH(34), "1",
           "How many times the atlas plays in a life."),

@@ -466,8 +466,8 @@ FN float value_sum_of_keys(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 }
 
 /* Returns the integral over life from 0 to x >= 0 of a value that may be integrated: of a curve
- * over life, or of what is the same for the whole life; parts of it are the same for the whole
- * life. It does not keep the value's limits; such values are within them by themselves. */
+ * over life, or of what is the same for the whole life, as its parts are. It does not keep the
+ * value's limits; such values are within them by themselves. */
 FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c, float x)
 {
     EXACT float flat_sum = v.constant * x;
@@ -490,6 +490,31 @@ FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c, float
         EXACT float product = sum * y;
         EXACT float both = sum + area;
         sum = part == 1u ? product : both;
+    }
+    return sum;
+}
+
+/* Returns the integral over the time, from the birth of a particle to its age, of a value that may
+ * be integrated: a rate in 1/s gives a number. c.time_s: now. */
+FN float value_number_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c, float progress,
+                         float life_s)
+{
+    if (v.count == 0u || VALUE_CLOCK(v.how) != KILN_CLOCK_TIME) {
+        EXACT float number = value_sum_at(VALUE_KEYS v, c, progress) * life_s;
+        return number;
+    }
+    EXACT float age_s = progress * life_s;
+    EXACT float born_s = c.time_s - age_s;
+    EXACT float before = value_sum_of_keys(VALUE_KEYS v, born_s);
+    EXACT float area = value_sum_of_keys(VALUE_KEYS v, c.time_s) - before;
+    EXACT float sum = area > 0.0f ? area : 0.0f;
+    if (VALUE_USES(VALUE_USES_PARTS) && (v.how & VALUE_TIMES) != 0u) {
+        EXACT float factor = value_at(VALUE_KEYS value_part(VALUE_KEYS v, 1u), c);
+        sum = sum * factor;
+    }
+    if (VALUE_USES(VALUE_USES_PARTS) && (v.how & VALUE_PLUS) != 0u) {
+        EXACT float more = value_at(VALUE_KEYS value_part(VALUE_KEYS v, 2u), c);
+        sum = sum + more * age_s;
     }
     return sum;
 }

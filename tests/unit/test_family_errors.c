@@ -39,9 +39,9 @@ static const struct bad families[] = {
      ":4:38: systems.b.emit.parent.on: the rate is 0 at all times; it must be above 0"},
     {"kiln: 1\n"
      "systems:\n"
-     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {keys: {0 s: 1}}}"),
-     ":4:47: systems.b.emit.parent.on.trail.rate.keys: cannot vary over time here; allowed is a "
-     "constant or {life: ...} over a particle's life"},
+     "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {age: {0 s: 1}}}"),
+     ":4:47: systems.b.emit.parent.on.trail.rate.age: cannot vary over age here; allowed is a "
+     "constant or a mapping with keys, life, random or choose"},
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{bounce: 5}"),

@@ -327,7 +327,7 @@ static void a_reference_and_a_schema_follow(void **state)
         "    default: 100\n",
         "\nmarks.N.dot\n    A dot.\n    dot: VALUE is short for dot: {radius: VALUE}\n",
         "\nspeed\n    Of the pen.\n    a number from 0 m/s to 10 m/s; unit m/s or cm/s\n"
-        "    may vary over time or life\n",
+        "    may vary over every clock but distance\n",
         "\"title\": \"a plotter\"",
         "\"title\": {\"description\": \"What it draws.\", "
         "\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 0, "

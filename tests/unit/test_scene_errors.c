@@ -280,12 +280,12 @@ static const struct bad units[] = {
 static const struct bad curves[] = {
     {"kiln: 1\n"
      "camera: {fov: {life: [40 deg, 50 deg]}}\n",
-     ":2:16: camera.fov.life: cannot vary over life here; allowed is a constant or {keys: {...}} "
-     "over time"},
+     ":2:16: camera.fov.life: cannot vary over life here; allowed is a constant or a "
+     "mapping with keys or noise"},
     {"kiln: 1\n"
      "systems: {a: {look: {cycles: {life: [1, 2]}}}}\n",
      ":2:31: systems.a.look.cycles.life: cannot vary over life here; allowed is a constant or "
-     "{keys: {...}} over time"},
+     "a mapping with keys, random, choose or noise"},
     {"kiln: 1\n"
      "output: {frames: {keys: {0 s: 1}}}\n",
      ":2:18: output.frames: expected a whole number from 1 to 1000000, found a mapping"},
@@ -310,10 +310,62 @@ static const struct bad curves[] = {
      "it"},
     {"kiln: 1\n"
      "camera: {fov: {keys: {0 s: 40 deg}, life: [1]}}\n",
-     ":2:15: camera.fov: expected a constant or {keys: {...}} over time, found a mapping"},
+     ":2:37: camera.fov: expected one clock, found 'keys' and 'life'"},
     {"kiln: 1\n"
      "camera: {fov: {from: 1}}\n",
-     ":2:15: camera.fov: expected a constant or {keys: {...}} over time, found a mapping"},
+     ":2:15: camera.fov: expected a constant or a mapping with keys or noise, found a mapping"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {0 s: 40 deg}, eas: step}}\n",
+     ":2:37: camera.fov.eas: unknown key (did you mean 'ease'?)"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {0 s: 40 deg}, ease: steps}}\n",
+     ":2:43: camera.fov.ease: unknown word 'steps' (did you mean 'step'?)"},
+    {"kiln: 1\n"
+     "camera: {fov: {keys: {0 s: 40 deg}, period: 1 s}}\n",
+     ":2:37: camera.fov: 'period' does not go with 'keys'"},
+    {"kiln: 1\n"
+     "camera: {fov: {noise: [40 deg, 50 deg], per: particle}}\n",
+     ":2:46: camera.fov: a noise of each particle is not possible here; allowed is per: system"},
+    {"kiln: 1\n"
+     "camera: {fov: {noise: [40 deg, 50 deg], octaves: 9}}\n",
+     ":2:50: camera.fov.octaves: 9 is out of range; allowed is from 1 to 8"},
+    {"kiln: 1\n"
+     "camera: {fov: {noise: [40 deg, 50 deg], period: 0 s}}\n",
+     ":2:49: camera.fov.period: 0 s is out of range; allowed is from 0.001 s to 1000000 s"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {life: [0, 1], times: {random: [0, 1], times: 2}}}}}\n",
+     ":2:67: systems.a.look.size.times: 'times' is not possible here"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {choose: [1, 2], weights: [1]}}}}\n",
+     ":2:54: systems.a.look.size.weights: expected a list of 2 weights, one for each of what is "
+     "chosen from"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {choose: [1, 2], weights: [1, 0]}}}}\n",
+     ":2:54: systems.a.look.size.weights: every weight must be above 0"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {choose: {0: 1}}}}}\n",
+     ":2:37: systems.a.look.size.choose: expected a list of what is chosen from, found a mapping"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {random: 3}}}}\n",
+     ":2:37: systems.a.look.size.random: expected [least, ..., most] or {part: value}, found '3'"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {random: {0.5: 1, 0.2: 2}}}}}\n",
+     ":2:46: systems.a.look.size.random.0.2: the quantile of a key must be above that of the key "
+     "before it"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {spin: {life: [0 deg/s, 90 deg/s], ease: smooth}}}}\n",
+     ":2:62: systems.a.look.spin: ease: 'smooth' is not possible here; allowed is linear or step"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {spin: {life: [0 deg/s, 90 deg/s], times: {random: [-1, 1]}}}}}\n",
+     ":2:28: systems.a.look.spin: may reach -90 deg/s; allowed is a number from 0 deg/s to 36000 "
+     "deg/s"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {speed: [{random: [1, 2]}, 3]}}}\n",
+     ":2:31: systems.a.emit.speed.random: cannot vary over random here; allowed is a constant or "
+     "a mapping with keys"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {size: {life: [0, 1], seed: 3}}}}\n",
+     ":2:43: systems.a.look.size: 'seed' does not go with 'life'"},
     {"kiln: 1\n"
      "systems: {a: {look: {size: {life: {0: 1, 2: 2}}}}}\n",
      ":2:42: systems.a.look.size.life.2: 2 is out of range; allowed is from 0 to 1"},

@@ -127,7 +127,7 @@ $ kiln help scene systems.fire.look.spin
 1|systems.NAME.look.spin
 1|    Angular speed of a particle. Speed and direction are chosen at random for each particle.
 1|    [min, max] or one number, from 0 deg/s to 36000 deg/s; unit deg/s or rad/s
-1|    may vary over time or life
+1|    may vary over time, over life or at random
 1|    default: 0 deg/s
 1|
 $ kiln help scene camera.shutter --search phase | grep -c '^camera'
