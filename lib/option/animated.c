@@ -131,8 +131,7 @@ static bool unknown_entry(struct kiln_reader *reader, const struct kiln_node *en
     return kiln_reader_error(reader, entry->key, "unknown key%s", suggestion);
 }
 
-static bool take_entry(struct kiln_reader *reader, struct form *form,
-                       const struct kiln_node *entry)
+static bool take_entry(struct kiln_reader *reader, struct form *form, const struct kiln_node *entry)
 {
     const char *name = entry->key->text;
     const struct kiln_value_clock *clock = kiln_value_clock_named(name);
@@ -170,9 +169,9 @@ static bool check_form(struct kiln_reader *reader, const struct kiln_option *opt
     }
     for (size_t i = 0; i < BESIDE_COUNT; i++) {
         const struct kiln_node *entry = form->beside[i];
-        const bool is_known =
-            (besides[i].clocks & 1u << form->clock->clock) != 0 &&
-            (i != WEIGHTS || form->clock->only_list) && (i != EASE || !form->clock->only_list);
+        const bool is_known = (besides[i].clocks & 1u << form->clock->clock) != 0 &&
+                              (i != WEIGHTS || form->clock->only_list) &&
+                              (i != EASE || !form->clock->only_list);
         if (entry && !is_known)
             return kiln_reader_error(reader, entry->key, "'%s' does not go with '%s'",
                                      besides[i].name, clock);
@@ -256,13 +255,16 @@ static bool read_points(struct kiln_reader *reader, const struct kiln_node *node
 /* Reads the weights of a choice, and finds at which part of all of them each entry begins. */
 static bool read_weights(struct kiln_reader *reader, const struct form *form, double *places)
 {
-    const struct kiln_node *weights = form->beside[WEIGHTS], *entry = weights ? weights->first : NULL;
+    const struct kiln_node *weights = form->beside[WEIGHTS],
+                           *entry = weights ? weights->first : NULL;
     const uint32_t count = form->curve->count;
     double sum = 0;
     size_t before = weights ? kiln_reader_enter(reader, "weights") : reader->path_length;
     if (weights && (weights->kind != KILN_NODE_LIST || weights->count != count))
-        return kiln_reader_error(reader, weights, "expected a list of %u weights, one for each of "
-                                                  "what is chosen from", count);
+        return kiln_reader_error(reader, weights,
+                                 "expected a list of %u weights, one for each of "
+                                 "what is chosen from",
+                                 count);
     for (uint32_t i = 0; i < count; i++) {
         double weight = 1;
         if (entry && !kiln_read_number(reader, &kiln_value_weight, entry, &weight))
@@ -289,9 +291,8 @@ static bool read_keys(struct kiln_reader *reader, const struct form *form, struc
     size_t before = kiln_reader_enter(reader, clock->name);
     if (!clock->takes_list && keys->kind != KILN_NODE_MAP)
         return kiln_reader_expected(reader, keys,
-                                    clock->clock == KILN_CLOCK_TIME
-                                        ? "a mapping {time: value, ...}"
-                                        : "a mapping {x: value, ...}");
+                                    clock->clock == KILN_CLOCK_TIME ? "a mapping {time: value, ...}"
+                                                                    : "a mapping {x: value, ...}");
     if (clock->only_list && keys->kind != KILN_NODE_LIST)
         return kiln_reader_expected(reader, keys, "a list of what is chosen from");
     if (keys->kind == KILN_NODE_SCALAR)

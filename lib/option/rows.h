@@ -12,11 +12,11 @@
 
 /* How the value of a row may vary: the member `clocks`, and `draws` in the brackets. 0 stands for a
  * constant. */
-#define TIME(n)    KILN_OVER_TIME, .draws = n
-#define BIRTH(n)   KILN_AT_BIRTH, .draws = n
-#define LIFE(n)    KILN_OVER_LIFE, .draws = n
-#define DRAWN(n)   KILN_WHEN_DRAWN, .draws = n
-#define SUMMED(n)  KILN_SUMMED_UP, .draws = n
+#define TIME(n)   KILN_OVER_TIME, .draws = n
+#define BIRTH(n)  KILN_AT_BIRTH, .draws = n
+#define LIFE(n)   KILN_OVER_LIFE, .draws = n
+#define DRAWN(n)  KILN_WHEN_DRAWN, .draws = n
+#define SUMMED(n) KILN_SUMMED_UP, .draws = n
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 

@@ -67,11 +67,13 @@ static void schema_besides(const struct kiln_option *option, const char *plain,
         kiln_text_add(out, ", \"seed\": {\"type\": \"integer\", \"minimum\": %d, \"maximum\": %d}",
                       (int)kiln_value_seed.min, (int)kiln_value_seed.max);
     if (option->clocks & KILN_ALLOW_RANDOM)
-        kiln_text_add(out, ", \"weights\": {\"type\": \"array\", \"items\": {\"type\": \"number\"}}");
+        kiln_text_add(out,
+                      ", \"weights\": {\"type\": \"array\", \"items\": {\"type\": \"number\"}}");
     if (option->clocks & KILN_ALLOW_NOISE) {
         kiln_text_add(out, ", \"period\": ");
         kiln_schema_number(&kiln_value_period, out);
-        kiln_text_add(out, ", \"octaves\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": %u}",
+        kiln_text_add(out,
+                      ", \"octaves\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": %u}",
                       VALUE_NOISE_OCTAVES);
         kiln_text_add(out, ", \"per\": {\"enum\": [\"system\"%s]}",
                       option->clocks & KILN_ALLOW_OWN_NOISE ? ", \"particle\"" : "");
@@ -79,7 +81,8 @@ static void schema_besides(const struct kiln_option *option, const char *plain,
     if (option->clocks & KILN_ALLOW_PARTS)
         kiln_text_add(out,
                       ", \"times\": {\"type\": [\"number\", \"string\", \"object\"]}, \"plus\": "
-                      "{\"anyOf\": [%s, {\"type\": [\"object\", \"array\"]}]}", plain);
+                      "{\"anyOf\": [%s, {\"type\": [\"object\", \"array\"]}]}",
+                      plain);
 }
 
 /* Appends the schema of a mapping with a clock. */

@@ -84,13 +84,12 @@ bool kiln_curve_add(struct kiln_reader *reader, const struct kiln_node *node,
         if (curve->points == 0)
             continue;
         if (x <= key[-1].x)
-            return kiln_reader_error(
-                reader, node, "the %s of a key must be %s that of the key before it", axis,
-                strcmp(axis, "time") == 0 ? "later than" : "above");
-        if (!isfinite((y[i] - key[-1].y) / (x - key[-1].x)) || !isfinite(1.0f / (x - key[-1].x)))
             return kiln_reader_error(reader, node,
-                                     "the %s of a key is too close to that of the key before it",
-                                     axis);
+                                     "the %s of a key must be %s that of the key before it", axis,
+                                     strcmp(axis, "time") == 0 ? "later than" : "above");
+        if (!isfinite((y[i] - key[-1].y) / (x - key[-1].x)) || !isfinite(1.0f / (x - key[-1].x)))
+            return kiln_reader_error(
+                reader, node, "the %s of a key is too close to that of the key before it", axis);
         join_keys(key, curve->ease);
     }
     curve->points++;

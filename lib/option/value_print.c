@@ -15,7 +15,8 @@ static const struct kiln_value_clock *clock_of(const struct kiln_value *value)
 /* Returns whether the keys of a random value are where `choose` has them without weights. */
 static bool chooses(const float4 *keys, const struct kiln_value *value)
 {
-    bool even = VALUE_CLOCK(value->how) == KILN_CLOCK_RANDOM && VALUE_EASE(value->how) == VALUE_STEP;
+    bool even =
+        VALUE_CLOCK(value->how) == KILN_CLOCK_RANDOM && VALUE_EASE(value->how) == VALUE_STEP;
     for (uint32_t i = 0; i < value->count; i++)
         even = even && keys[value->first + i].x == (float)((double)i / (double)value->count);
     return even;
@@ -49,8 +50,7 @@ static void add_keys(struct kiln_printer *printer, enum kiln_dimension dimension
     for (uint32_t i = 0; i < values->count; i++) {
         kiln_text_add(&printer->text, i ? ", " : "");
         if (!is_list) {
-            add_number(&printer->text, clock->axis.dimension,
-                       printer->keys[values->first + i].x);
+            add_number(&printer->text, clock->axis.dimension, printer->keys[values->first + i].x);
             kiln_text_add(&printer->text, ": ");
         }
         add_key(printer, dimension, values, count, i);

@@ -72,8 +72,8 @@ static inline void kiln_lanes_store(const struct kiln_lanes *lanes, struct kiln_
         records[i] = kiln_lanes_record(lanes, i);
 }
 
-/* Holds the clocks of all lanes (struct value_clocks). A pointer may be NULL where no value has that
- * clock. */
+/* Holds the clocks of all lanes (struct value_clocks). A pointer may be NULL where no value has
+ * that clock. */
 struct kiln_lane_clocks {
     const float *time_s; /* NULL: same_time_s, of all lanes */
     float same_time_s;
@@ -85,8 +85,7 @@ struct kiln_lane_clocks {
 
 static inline struct value_clocks kiln_lane_clocks_at(const struct kiln_lane_clocks *c, uint32_t i)
 {
-    struct value_clocks one =
-        value_clocks_at(c->time_s ? c->time_s[i] : c->same_time_s, c->system);
+    struct value_clocks one = value_clocks_at(c->time_s ? c->time_s[i] : c->same_time_s, c->system);
     one.life = c->life ? c->life[i] : 0.0f;
     one.age_s = c->age_s ? c->age_s[i] : 0.0f;
     one.height = c->position ? c->position->y[i] : 0.0f;

@@ -55,9 +55,8 @@ static double most_of_a_life(const struct kiln_scene *scene, const struct kiln_v
 {
     if (rate->count == 0)
         return (double)rate->constant;
-    const struct kiln_value times = rate->how & VALUE_TIMES
-                                        ? value_part(scene->keys, *rate, 1)
-                                        : (struct kiln_value){.constant = 1};
+    const struct kiln_value times = rate->how & VALUE_TIMES ? value_part(scene->keys, *rate, 1)
+                                                            : (struct kiln_value){.constant = 1};
     const struct kiln_value plus = rate->how & VALUE_PLUS ? value_part(scene->keys, *rate, 2)
                                                           : (struct kiln_value){.constant = 0};
     struct kiln_value curve = *rate;

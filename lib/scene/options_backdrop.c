@@ -10,9 +10,9 @@
 
 /* The options of how particles bounce off an object and slide along it. */
 #define SURFACE_FACTORS                                                                            \
-    VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME(8), "1",                      \
+    VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME(8), "1",                   \
           "Factor on the restitution of particles that bounce off it."),                           \
-        VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, TIME(9), "1",                         \
+        VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, TIME(9), "1",                      \
               "Factor on the friction of particles that touch it.")
 
 #define COLLIDING                                                                                  \
@@ -21,7 +21,7 @@
         SURFACE_FACTORS
 
 #define REFLECTANCE                                                                                \
-    COLOR(LOOK, "color", color, 1, TIME(10), "[0.35, 0.34, 0.33]",                                     \
+    COLOR(LOOK, "color", color, 1, TIME(10), "[0.35, 0.34, 0.33]",                                 \
           "Fraction of the incoming light that it reflects.")
 
 TABLE(box) = {
@@ -81,7 +81,8 @@ TABLE(cone) = {
            "Centre of the cone, halfway between its base and its tip."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(25), "[0, 1, 0]",
            "Direction from the base to the tip, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(26), "0.5 m", "Radius of the base."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(26), "0.5 m",
+          "Radius of the base."),
     VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(27), "1 m",
           "Height along the axis, from the base to the tip."),
     REFLECTANCE,
@@ -265,10 +266,10 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
 
 /* The options that a point light and a spot share. */
 #define SMALL_LIGHT                                                                                \
-    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME(34), "[0, 2, 0]",                  \
+    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME(34), "[0, 2, 0]",              \
            "Position of the light."),                                                              \
-        COLOR(LOOK, "color", color, 1000000, TIME(35), "1", "Light that arrives 1 m away."),           \
-        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME(36), "0.2 m",                      \
+        COLOR(LOOK, "color", color, 1000000, TIME(35), "1", "Light that arrives 1 m away."),       \
+        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME(36), "0.2 m",                  \
               "Radius of the light. Near the light, it keeps the brightness finite; it softens "   \
               "shadows."),                                                                         \
         BOOLEAN(LOOK, "shadow", shadow, "true",                                                    \
@@ -276,7 +277,7 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
                 "except those that contain its centre.")
 
 #define LIGHT_DIRECTION                                                                            \
-    VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME(37), "[0, -1, 0]",                \
+    VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME(37), "[0, -1, 0]",            \
            "Direction in which the light shines, of any length but 0.")
 
 TABLE(point) = {
@@ -341,7 +342,8 @@ ITEM_OF_KINDS(light, light_kinds, kind, .name = "light");
 
 TABLE(sky) = {
     COLOR(LOOK, "top", sky_top, 1000, TIME(45), "[0.02, 0.03, 0.05]", "Colour overhead."),
-    COLOR(LOOK, "horizon", sky_horizon, 1000, TIME(46), "[0.12, 0.13, 0.16]", "Colour at eye level."),
+    COLOR(LOOK, "horizon", sky_horizon, 1000, TIME(46), "[0.12, 0.13, 0.16]",
+          "Colour at eye level."),
     {ROW(LOOK, "image", picture, sky_image, "none",
          "The whole sphere around the scene as one picture, left to right and top to bottom, in "
          "place of the gradient. Its middle lies towards -z. Averages of its colours over parts of "
@@ -363,7 +365,8 @@ TABLE(floor_rows) = {
           "Edge length of lighter and darker squares; 0 is a plain floor."),
     {ROW(LOOK, "image", picture, floor_image, "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
-    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME(52), "1 m", "Width of the picture."),
+    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME(52), "1 m",
+          "Width of the picture."),
     VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME(53), "0",
           "Strength of the floor's reflection; 1 reflects as water does. The floor mirrors sky, "
           "lights and objects except meshes. Of particles it mirrors only the light that they shed "
@@ -397,8 +400,8 @@ TABLE(sun) = {
     VALUE(LOOK, "glow", sun_glow, KILN_PLAIN, 0, 1000000, TIME(63), "0",
           "Brightness of the sky at the sun's middle beside that of the disc, as a factor on "
           "`color`. This glow gets weaker away from the sun, and colours the haze as well."),
-    VALUE(LOOK, "glow_size", sun_glow_size, KILN_ANGLE, KILN_DEG(0.01), KILN_DEG(90), TIME(64), "6 deg",
-          "Angle away from the sun at which a third of the glow is left."),
+    VALUE(LOOK, "glow_size", sun_glow_size, KILN_ANGLE, KILN_DEG(0.01), KILN_DEG(90), TIME(64),
+          "6 deg", "Angle away from the sun at which a third of the glow is left."),
     END,
 };
 

@@ -8,15 +8,15 @@
 
 /* Options that every shape has. `spread` is the default of `angle`. */
 #define PLACE(spread)                                                                              \
-    VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, BIRTH(1), "[0, 0, 0]",                    \
+    VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, BIRTH(1), "[0, 0, 0]",                \
            "Centre of the shape. When it moves, births are spread along its way."),                \
-        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), "[0, 1, 0]",           \
+        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), "[0, 1, 0]",       \
                "Mean direction in which particles start, of any length but 0."),                   \
-        VALUE(MOTION, "angle", angle, KILN_ANGLE, 0, KILN_DEG(180), BIRTH(3), spread,                  \
+        VALUE(MOTION, "angle", angle, KILN_ANGLE, 0, KILN_DEG(180), BIRTH(3), spread,              \
               "Largest angle between a particle's direction and the mean direction.")
 
 #define TURN                                                                                       \
-    VALUE(MOTION, "turn", turn, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), BIRTH(4),       \
+    VALUE(MOTION, "turn", turn, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), BIRTH(4),   \
           "0 deg/s",                                                                               \
           "Angular speed at which the shape turns about its direction. Particles get the "         \
           "velocity that the turning shape has where they are born.")
@@ -38,7 +38,8 @@ TABLE(sphere) = {
 
 TABLE(box) = {
     PLACE("0 deg"),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, BIRTH(6), "[1, 1, 1]", "Lengths of the edges."),
+    VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, BIRTH(6), "[1, 1, 1]",
+           "Lengths of the edges."),
     BOOLEAN(MOTION, "surface", surface, "false", "Particles are born on the six faces only."),
     TURN,
     END,

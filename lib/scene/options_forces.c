@@ -112,7 +112,8 @@ TABLE(vortex) = {
            "at the viewer."),
     VALUE(MOTION, "speed", speed, KILN_SPEED, -10000, 10000, LIFE(62), "1 m/s",
           "Speed of the air around the axis at the edge of the core, where it is fastest."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(63), "0.5 m", "Radius of the core."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(63), "0.5 m",
+          "Radius of the core."),
     CHOICE(MOTION, "profile", profile, profiles, "rankine",
            "rankine: the core turns like a solid body, and the air outside of it is slower with "
            "the distance. lamb_oseen: the change from core to outside is smooth."),

@@ -41,8 +41,8 @@ TABLE(collide) = {
     VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 10, TIME(72), "0.2",
           "Coefficient of friction between two particles that spin: the impulse along the contact "
           "as a part of the impulse between their centres, limited to what stops the slip."),
-    RANGE(MOTION, "turning", turning, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME(73),
-          "0 deg/s",
+    RANGE(MOTION, "turning", turning, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000),
+          TIME(73), "0 deg/s",
           "Angular speed at birth of particles that spin, chosen at random for each particle."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -1000, 1000, TIME(74), "[0, 0, 0]",
            "Axis about which a particle turns at birth, of any length. [0, 0, 0] stands for an "
@@ -103,8 +103,8 @@ TABLE(flock) = {
     GROUP(MOTION, "global", flock_global,
           "Cohesion and alignment with all particles of the system at any distance, as in the "
           "paper."),
-    VALUE(MOTION, "acceleration", flock.acceleration, KILN_ACCELERATION, 0, 1e6, TIME(88), "20 m/s^2",
-          "Largest acceleration by which all of this together steers a particle."),
+    VALUE(MOTION, "acceleration", flock.acceleration, KILN_ACCELERATION, 0, 1e6, TIME(88),
+          "20 m/s^2", "Largest acceleration by which all of this together steers a particle."),
     VALUE(MOTION, "slowest", flock.slowest, KILN_SPEED, 0, 100000, TIME(89), "0 m/s",
           "Lowest speed of a particle."),
     VALUE(MOTION, "fastest", flock.fastest, KILN_SPEED, 0.001, 100000, TIME(90), "10 m/s",

@@ -72,7 +72,8 @@ TABLE(bloom) = {
     CHOICE(LOOK, "source", bloom_source, bloom_sources, "weights",
            "What glows: weights takes particles by look.bloom, bright takes all that is brighter "
            "than `threshold`."),
-    VALUE(LOOK, "strength", bloom_strength, KILN_PLAIN, 0, 100, TIME(66), "1", "Factor on the glow."),
+    VALUE(LOOK, "strength", bloom_strength, KILN_PLAIN, 0, 100, TIME(66), "1",
+          "Factor on the glow."),
     VALUE(LOOK, "threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME(67), "1",
           "Exposed light above which the source bright glows."),
     VALUE(LOOK, "radius", bloom_radius, KILN_FRACTION, 0, 1, TIME(68), "0.7",

@@ -25,8 +25,7 @@ FN float3 force_limit_all(SIM_PARAM float3 position, float3 velocity, S(value_cl
         return velocity;
     for (uint i = 0u; i < STEP(force_count); i++) {
         EXACT S(value_clocks) here = forces_clocks(SIM position, y, clocks);
-        EXACT float limit =
-            VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), here);
+        EXACT float limit = VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), here);
         if (STEP(forces[i].kind) == FORCE_LIMIT)
             y = force_limit_one(y, limit);
     }

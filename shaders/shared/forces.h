@@ -90,7 +90,8 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float3 velocity, S(valu
         values.strength = VALUE_OF(KEYED_FORCE_STRENGTH, SIM_KEYS STEP(forces[i].strength), here);
         values.pull = VALUE_OF(KEYED_FORCE_PULL, SIM_KEYS STEP(forces[i].pull), here);
 #ifdef FORCES_ALL
-        values.quadratic = VALUE_OF(KEYED_FORCE_QUADRATIC, SIM_KEYS STEP(forces[i].quadratic), here);
+        values.quadratic =
+            VALUE_OF(KEYED_FORCE_QUADRATIC, SIM_KEYS STEP(forces[i].quadratic), here);
 #endif
         values.scale = VALUE_OF(KEYED_FORCE_SCALE, SIM_KEYS STEP(forces[i].scale), here);
         EXACT S(force_input) force = force_input_of(SIM i, position, values);

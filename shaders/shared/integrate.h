@@ -11,7 +11,8 @@
 #ifdef FORCES_PLAIN
 
 /* Does integrate for integrators that evaluate forces once, without quadratic drag. */
-FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, S(value_clocks) clocks)
+FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until,
+                                    S(value_clocks) clocks)
 {
     EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
     EXACT S(force_effect) forces = forces_sum(SIM s.position, s.velocity, clocks);
@@ -32,7 +33,7 @@ FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, S
 
 /* Does integrate for all integrators and forces. */
 FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float until,
-                                    S(value_clocks) clocks)
+                                     S(value_clocks) clocks)
 {
     EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
     uint count = stages_count(STEP_INTEGRATION);

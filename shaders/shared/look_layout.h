@@ -60,12 +60,12 @@
 /* The part of a look that is the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* parameters for the progress of life */
-    uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
-    uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame, or */
-                 /* a stretch dims billboards */
+    uint4 flags;  /* additive; random start; literal soft formula (equation 3.3); textures */
+    uint4 form;   /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame, or */
+                  /* a stretch dims billboards */
     uint4 values; /* row of the table in which the values over other clocks begin; 0: none */
-    uint4 turn;  /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
-                 /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
+    uint4 turn;   /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
+                  /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */
                                        /* scales the motion */
 };

@@ -178,8 +178,7 @@ FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, S(value_c
 }
 
 /* Collides on a way that is already known without colliders. */
-FN S(step_way) step_meet(SIM_PARAM S(step_way) flown, S(step_push) push,
-                         S(value_clocks) clocks)
+FN S(step_way) step_meet(SIM_PARAM S(step_way) flown, S(step_push) push, S(value_clocks) clocks)
 {
     EXACT S(step_way) way = flown;
     if (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity))

@@ -24,17 +24,18 @@
 #define KILN_CLOCK_NOISE    8u /* 0 to 1: a smooth noise over time */
 
 /* The parts of the word `how`. */
-#define VALUE_CLOCK(how)  ((how) & 15u)
-#define VALUE_EASE(how)   ((how) >> 4u & 7u)
-#define VALUE_REPEAT(how) ((how) >> 7u & 3u)
-#define VALUE_DRAW(how)   ((how) >> 12u) /* the number of the draw, of random numbers and noise */
+#define VALUE_CLOCK(how)   ((how)&15u)
+#define VALUE_EASE(how)    ((how) >> 4u & 7u)
+#define VALUE_REPEAT(how)  ((how) >> 7u & 3u)
+#define VALUE_DRAW(how)    ((how) >> 12u) /* the number of the draw, of random numbers and noise */
 #define VALUE_EASE_SHIFT   4u
 #define VALUE_REPEAT_SHIFT 7u
 #define VALUE_TIMES        0x200u /* the value is multiplied by another one */
 #define VALUE_PLUS         0x400u /* another value is added */
-#define VALUE_OF_PARTICLE  0x800u /* each particle has a noise of its own, instead of each system */
-#define VALUE_DRAW_SHIFT   12u
-#define VALUE_DRAW_BITS    20u
+#define VALUE_OF_PARTICLE  0x800u /* each particle has a noise of its own, instead of each system  \
+                                   */
+#define VALUE_DRAW_SHIFT 12u
+#define VALUE_DRAW_BITS  20u
 
 /* How a value goes from a key to the next. A curve of steps has slopes of 0. */
 #define VALUE_LINEAR 0u
@@ -382,7 +383,9 @@ FN float value_slope_at(VALUE_KEYS_PARAM S(kiln_value) v, float x)
         EXACT float left = 1.0f - t;
         EXACT float smooth_rise = 3.0f * rise * left;
         EXACT float out_rise = 2.0f * left;
-        EXACT float rising = ease == VALUE_SMOOTH ? smooth_rise : ease == VALUE_IN ? rise : out_rise;
+        EXACT float rising = ease == VALUE_SMOOTH ? smooth_rise
+                             : ease == VALUE_IN   ? rise
+                                                  : out_rise;
         slope = slope * key.w * rising;
     }
     EXACT float back = -slope;
@@ -476,7 +479,8 @@ FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c, float
     bool alone = !(VALUE_USES(VALUE_USES_PARTS) && (v.how & (VALUE_TIMES | VALUE_PLUS)) != 0u);
     EXACT float sum = 0.0f;
     for (uint part = 0u; part < VALUE_ENTRIES; part++) {
-        bool has = part == 0u || (!alone && (v.how & (part == 1u ? VALUE_TIMES : VALUE_PLUS)) != 0u);
+        bool has =
+            part == 0u || (!alone && (v.how & (part == 1u ? VALUE_TIMES : VALUE_PLUS)) != 0u);
         if (!has)
             continue;
         S(kiln_value) one = value_part(VALUE_KEYS v, part);

@@ -121,7 +121,8 @@ static void curves_span_the_life(void **state)
         static const float expected[][2] = {{0, 0},        {0.25f, 1}, {0.5f, 2},
                                             {0.75f, 1.5f}, {1, 1},     {2, 1}};
         for (size_t j = 0; j < sizeof expected / sizeof *expected; j++)
-            assert_true(value_at(scene->keys, *size, clocks_at(77, expected[j][0])) == expected[j][1]);
+            assert_true(value_at(scene->keys, *size, clocks_at(77, expected[j][0])) ==
+                        expected[j][1]);
         kiln_scene_destroy(&scene);
     }
     struct kiln_scene *single = size_scene("{life: [3]}");

@@ -170,8 +170,7 @@ static float4 scaled(float3 axis, float size)
 
 /* size: the longest edge of the mesh, m. */
 static void add_mesh(struct kiln_lamp_solids *solids, const struct kiln_appearance_system *system,
-                     uint32_t number, uint32_t slot, const struct value_clocks *clocks,
-                     float size)
+                     uint32_t number, uint32_t slot, const struct value_clocks *clocks, float size)
 {
     struct collected *now = &solids->now;
     struct posed *meshes = grow(now->meshes, now->mesh_count, &now->mesh_room, sizeof *meshes);
@@ -180,8 +179,7 @@ static void add_mesh(struct kiln_lamp_solids *solids, const struct kiln_appearan
         return;
     now->meshes = meshes;
     const struct kiln_look *look = &solids->scene->systems[number].look;
-    const struct instance_axes axes =
-        kiln_appearance_axes(system, slot, clocks, look->mesh.orient);
+    const struct instance_axes axes = kiln_appearance_axes(system, slot, clocks, look->mesh.orient);
     now->meshes[now->mesh_count++] = (struct posed){
         .axes = {scaled(axes.x, size), scaled(axes.y, size), scaled(axes.z, size)},
         .reach = size * solids->instances->meshes[number].reach,
@@ -204,8 +202,8 @@ static void collect_system(struct kiln_lamp_solids *solids, const struct kiln_mo
             const float radius = block.radius[i] * block.opacity[i];
             if (!(block.alive[i] && radius > 0.0f))
                 continue;
-            const struct value_clocks clocks = kiln_appearance_clocks(
-                &system, first + i, block.lanes.age_s[i], block.progress[i]);
+            const struct value_clocks clocks =
+                kiln_appearance_clocks(&system, first + i, block.lanes.age_s[i], block.progress[i]);
             if (mesh && solids->triangles)
                 add_mesh(solids, &system, number, first + i, &clocks, 2.0f * radius);
             add_ball(solids, kiln_get3(&block.position, i), radius * part);

@@ -28,7 +28,7 @@ static inline double sum_of(const partial_sums *of)
 struct fire {
     alignas(64) kiln_floats place; /* place among the lights, 0 to light_count - 1 */
     kiln_floats red, green, blue, energy;
-    kiln_floats sent; /* m^2 of a particle's square that send light */
+    kiln_floats sent;           /* m^2 of a particle's square that send light */
     struct kiln_floats3 offset; /* from `origin`, so that squares stay small */
     float3 origin;
     float place_min, place_max; /* of the places */

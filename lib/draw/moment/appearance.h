@@ -11,17 +11,17 @@
 struct kiln_appearance_system {
     struct kiln_derived_params derived;
     const float4 *keys;
-    const struct kiln_particle *records; /* the system's records, by slot */
-    const float4 *rows;                  /* the system's rows of the look table */
-    const float4 *table;                 /* the whole look table */
+    const struct kiln_particle *records;     /* the system's records, by slot */
+    const float4 *rows;                      /* the system's rows of the look table */
+    const float4 *table;                     /* the whole look table */
     const struct kiln_look_program *program; /* values of the look over other clocks than life */
-    float3 eye;                          /* of the camera, m */
-    float time_s;                        /* clip time of the moment */
-    uint32_t used;                       /* only slots below this number may hold a particle */
-    uint32_t step;                       /* number of steps so far */
-    float back;                          /* from the moment to the end of these steps, in steps */
-    float dt_s;                          /* duration of a step, s */
-    const struct kiln_spin *spins;       /* by slot; NULL: collisions do not turn the particles */
+    float3 eye;                              /* of the camera, m */
+    float time_s;                            /* clip time of the moment */
+    uint32_t used;                           /* only slots below this number may hold a particle */
+    uint32_t step;                           /* number of steps so far */
+    float back;                    /* from the moment to the end of these steps, in steps */
+    float dt_s;                    /* duration of a step, s */
+    const struct kiln_spin *spins; /* by slot; NULL: collisions do not turn the particles */
 };
 
 /* Describes a living particle at the moment's time. */

@@ -45,7 +45,10 @@ struct scalar_place {
 
 #define SCALAR(member, target_, lanes_)                                                            \
     {                                                                                              \
-        .offset = offsetof(struct kiln_look, member), .place = {.target = target_, .lanes = lanes_ } \
+        .offset = offsetof(struct kiln_look, member), .place = {                                   \
+            .target = target_,                                                                     \
+            .lanes = lanes_                                                                        \
+        }                                                                                          \
     }
 
 static const struct scalar_place scalars[] = {
@@ -132,8 +135,7 @@ static void find_own(const struct kiln_scene *scene, const struct kiln_look *loo
         const struct kiln_value *value =
             (const struct kiln_value *)((const char *)look + scalars[i].offset);
         if (kiln_look_value_is_own(scene->keys, value))
-            add_own(own,
-                    (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean});
+            add_own(own, (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean});
     }
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         const struct kiln_value3 *vector =
@@ -365,8 +367,8 @@ void kiln_look_programs_sample(const struct kiln_scene *scene,
                             part_texel(scene->keys, &own.values[v], p, part, &clocks, k);
                 }
                 if (value->light_row)
-                    *texel_at(table, value->light_row, k) = light_texel(
-                        &observer, look, value, own.values[v].place.light == COOL, k);
+                    *texel_at(table, value->light_row, k) =
+                        light_texel(&observer, look, value, own.values[v].place.light == COOL, k);
             }
         }
     }
@@ -420,8 +422,8 @@ static float repeat(const struct kiln_look_part *part, float x)
 {
     const float since = x - part->from, turns = floorf(exact_div(since, part->span));
     const float rest = exact_clamp(since - turns * part->span, 0.0f, part->span);
-    const bool back = (part->flags & LOOK_PART_MIRRORS) != 0 &&
-                      turns - 2.0f * floorf(turns * 0.5f) != 0.0f;
+    const bool back =
+        (part->flags & LOOK_PART_MIRRORS) != 0 && turns - 2.0f * floorf(turns * 0.5f) != 0.0f;
     return part->from + (back ? part->span - rest : rest);
 }
 

@@ -13,14 +13,14 @@
 
 /* A part of a value: its own curve, what multiplies it, or what is added to it. */
 struct kiln_look_part {
-    uint32_t clock;        /* KILN_CLOCK_*; KILN_CLOCK_CONSTANT: the row is the same everywhere */
-    uint32_t flags;        /* LOOK_PART_* */
-    uint32_t draw;         /* what random_unit takes, or the seed of a noise */
-    uint32_t row;          /* of the table, counted from its begin */
-    uint32_t steps;        /* with LOOK_PART_STEPS: how many texels of the row there are */
-    float from, per_x;     /* x of the first sample; samples for each 1 of x */
-    float span;            /* of a repetition */
-    float period_s;        /* of a noise */
+    uint32_t clock;    /* KILN_CLOCK_*; KILN_CLOCK_CONSTANT: the row is the same everywhere */
+    uint32_t flags;    /* LOOK_PART_* */
+    uint32_t draw;     /* what random_unit takes, or the seed of a noise */
+    uint32_t row;      /* of the table, counted from its begin */
+    uint32_t steps;    /* with LOOK_PART_STEPS: how many texels of the row there are */
+    float from, per_x; /* x of the first sample; samples for each 1 of x */
+    float span;        /* of a repetition */
+    float period_s;    /* of a noise */
     uint32_t octaves;
 };
 
@@ -29,8 +29,8 @@ struct kiln_look_value {
     uint32_t lanes;  /* bit mask of the row's components */
     uint32_t parts;  /* bit mask of the parts that the value has */
     struct kiln_look_part part[3];
-    float low, high;      /* limits of the result */
-    uint32_t light_row;   /* a row of light over the result, which is a temperature; 0: none */
+    float low, high;    /* limits of the result */
+    uint32_t light_row; /* a row of light over the result, which is a temperature; 0: none */
     float light_from, light_per_x;
 };
 

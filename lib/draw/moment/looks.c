@@ -151,10 +151,9 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
 static uint32_t look_uses(const float4 *keys, const struct kiln_look *look)
 {
     const struct kiln_value *values[] = {
-        &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
-        &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
-        &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
-        &look->line_width,  &look->thickness};
+        &look->size,      &look->stretch,    &look->cycles,     &look->opacity,  &look->temperature,
+        &look->intensity, &look->fade_in,    &look->fade_out,   &look->soft,     &look->near_fade,
+        &look->lit,       &look->point_size, &look->line_width, &look->thickness};
     const struct kiln_value3 *vectors[] = {&look->color, &look->bloom, &look->axis,
                                            &look->sphere.color};
     uint32_t uses = kiln_range_uses(keys, &look->scale) | kiln_range_uses(keys, &look->rotation) |

@@ -11,7 +11,8 @@
 /* The temperature of a cell's cool parts divided by the temperature of its hot parts. */
 #define KILN_LOOK_COOL_SHARE 0.72f
 
-/* The table's number of texels without values over other clocks: a system has KILN_LOOK_ROWS rows of KILN_LOOK_SAMPLES texels. */
+/* The table's number of texels without values over other clocks: a system has KILN_LOOK_ROWS rows
+ * of KILN_LOOK_SAMPLES texels. */
 #define KILN_LOOK_TEXELS (KILN_MAX_SYSTEMS * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES)
 
 /* Fills table with the looks of the scene at a clip time; row r of system s starts at (s *

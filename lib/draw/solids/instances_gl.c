@@ -3,12 +3,11 @@
  * entries of other systems, since only the device knows where in the list they are. */
 #include "draw/solids/instances_gl.h"
 
-#include "draw/moment/moment_gl.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "draw/moment/moment_gl.h"
 #include "gpu/program.h"
 
 struct kiln_instances_gl {

@@ -22,8 +22,7 @@ SIMD struct value_clocks clocks_of_lane(const struct clock_lanes *c, int lane)
     clocks.age_s = c->age_s[lane];
     clocks.height = c->height[lane];
     clocks.distance = c->distance[lane];
-    clocks.velocity =
-        (float3){c->velocity.x[lane], c->velocity.y[lane], c->velocity.z[lane]};
+    clocks.velocity = (float3){c->velocity.x[lane], c->velocity.y[lane], c->velocity.z[lane]};
     clocks.stream = c->stream[lane];
     return clocks;
 }

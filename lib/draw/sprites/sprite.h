@@ -75,10 +75,10 @@ struct kiln_sprites {
 /* Holds the data that all sprites of a pass share. */
 struct kiln_sprite_pass {
     const struct kiln_scene *scene;
-    const struct kiln_draw_look *looks;  /* KILN_MAX_SYSTEMS looks */
-    const float4 *table;                 /* the moment's table of looks */
+    const struct kiln_draw_look *looks;       /* KILN_MAX_SYSTEMS looks */
+    const float4 *table;                      /* the moment's table of looks */
     const struct kiln_look_program *programs; /* of each system: what multiplies its rows */
-    const struct kiln_particle *records; /* the pool's records */
+    const struct kiln_particle *records;      /* the pool's records */
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_lighting *lighting;

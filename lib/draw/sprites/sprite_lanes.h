@@ -24,7 +24,7 @@ enum {
 struct sprite_lanes {
     const struct kiln_sprite_pass *pass;
     const struct kiln_draw_look *look;
-    const float *rows; /* the system's rows of the look table */
+    const float *rows;                       /* the system's rows of the look table */
     const struct kiln_look_program *program; /* what multiplies them */
     struct clock_lanes clocks;               /* set if the program has any values */
     vi mixes_cells;    /* mask: the system has at least KILN_CELL_MIXED_LEAST slots */

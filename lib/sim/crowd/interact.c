@@ -77,7 +77,8 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     work->width_m = 2.0f * kiln_scene_contact_radius(scene, system);
     work->fastest = kiln_scene_system_value(scene, system, &collide->fastest, params->time_s);
     params->as_drawn = collide->as_drawn;
-    params->restitution = kiln_scene_system_value(scene, system, &collide->restitution, params->time_s);
+    params->restitution =
+        kiln_scene_system_value(scene, system, &collide->restitution, params->time_s);
     params->apart = kiln_scene_system_value(scene, system, &collide->apart, params->time_s);
     params->radius = collide->radius;
     params->size = look->size;
@@ -104,7 +105,8 @@ static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene
         kiln_scene_interaction(scene, system, KILN_INTERACT_GRAVITY);
     if (!gravity)
         return;
-    const float softening_m = kiln_scene_system_value(scene, system, &gravity->softening, work->params.time_s);
+    const float softening_m =
+        kiln_scene_system_value(scene, system, &gravity->softening, work->params.time_s);
     work->pulls = true;
     work->params.adds = work->collides;
     work->params.softening_square = softening_m * softening_m;

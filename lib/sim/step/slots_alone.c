@@ -25,8 +25,7 @@ static struct kiln_particle step_touching(const struct kiln_sim *sim, const stru
     way.lost = true;
     if (sim->step->spins)
         way.start.spin = way.end.spin = step_spin(sim, p, slot);
-    const struct value_clocks clocks =
-        step_clocks(sim, p, b->lanes.age_s[i], b->lanes.life_s[i]);
+    const struct value_clocks clocks = step_clocks(sim, p, b->lanes.age_s[i], b->lanes.life_s[i]);
     way = step_meet(sim, way, push_of(sim, slot), clocks);
     if (way.lost)
         return step_dead();

@@ -129,9 +129,8 @@ static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, u
 }
 
 /* Both ways to integrate call this, so it is not inlined into them: it is most of their code. */
-__attribute__((flatten, noinline)) static void add_forces(const struct kiln_sim *sim,
-                                                          struct kiln_block *b,
-                                                          const struct kiln_floats3 *velocity)
+__attribute__((flatten, noinline)) static void
+add_forces(const struct kiln_sim *sim, struct kiln_block *b, const struct kiln_floats3 *velocity)
 {
     b->clocks.velocity = velocity;
     for (uint32_t i = 0; i < KILN_LANES; i++) {

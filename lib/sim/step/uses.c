@@ -99,9 +99,11 @@ void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene
             add_system(&uses, scene, step, &scene->systems[i]);
     }
     kiln_text_add(defines,
-                  "#define USES_KEYS %uu\n#define USES_CLOCKS %uu\n#define USES_FORCES %uu\n#define USES_EMITTERS %uu\n"
+                  "#define USES_KEYS %uu\n#define USES_CLOCKS %uu\n#define USES_FORCES "
+                  "%uu\n#define USES_EMITTERS %uu\n"
                   "#define USES_COLLIDERS %uu\n#define USES_COLLIDE %uu\n"
                   "#define USES_BIRTHS %uu\n#define USES_INTEGRATION %uu\n",
-                  uses.keys, uses.clocks, uses.forces, uses.emitters, kiln_sim_colliders_used(scene),
-                  uses.collide, uses.births, (uint)scene->integration);
+                  uses.keys, uses.clocks, uses.forces, uses.emitters,
+                  kiln_sim_colliders_used(scene), uses.collide, uses.births,
+                  (uint)scene->integration);
 }

@@ -265,8 +265,8 @@ static struct kiln_value at_time(const struct moment *m, struct kiln_value value
 {
     if (kiln_value_uses(m->scene->keys, &value) & KILN_VALUE_OF_PARTICLES)
         return value;
-    return (struct kiln_value){
-        .constant = kiln_scene_system_value(m->scene, m->system, &value, m->time_s)};
+    return (struct kiln_value){.constant =
+                                   kiln_scene_system_value(m->scene, m->system, &value, m->time_s)};
 }
 
 static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 value)
