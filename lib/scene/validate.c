@@ -160,6 +160,18 @@ static bool is_not_zero(const struct kiln_scene *scene, const struct kiln_value3
     return v.x != 0 || v.y != 0 || v.z != 0;
 }
 
+/* Returns whether a vector that varies as a whole is [0, 0, 0] at one of its keys, whatever its
+ * clock counts. */
+static bool has_zero_key(const struct kiln_scene *scene, const struct kiln_value3 *v)
+{
+    const bool whole = kiln_value3_is_whole(scene->keys, v) && !(v->x.how & VALUE_PLUS);
+    bool found = false;
+    for (uint32_t i = 0; whole && i < v->x.count; i++)
+        found = found || (scene->keys[v->x.first + i].y == 0 &&
+                          scene->keys[v->y.first + i].y == 0 && scene->keys[v->z.first + i].y == 0);
+    return found;
+}
+
 static bool are_apart(const struct kiln_scene *scene, const struct kiln_value3 *const *vectors,
                       float time_s)
 {
@@ -267,6 +279,31 @@ static bool check_interactions(struct kiln_reader *reader, const struct kiln_nod
     return true;
 }
 
+/* Refuses a look that moves or paints something and varies over the distance to the eye: a state
+ * must not depend on the camera. */
+static bool check_distances(struct kiln_reader *reader, const struct kiln_node *root,
+                            uint32_t index)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_system *system = &scene->systems[index];
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, index, KILN_INTERACT_COLLIDE);
+    const uint32_t distance = 1u << KILN_CLOCK_DISTANCE;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.look.size", system->name);
+    if (collide && collide->as_drawn &&
+        (kiln_value_uses(scene->keys, &system->look.size) & distance))
+        return kiln_reader_error_at(reader, root, path,
+                                    "cannot vary over the distance to the eye, since particles "
+                                    "collide as they are drawn");
+    snprintf(path, sizeof path, "systems.%s.look.color", system->name);
+    if (system->paint.enabled && (kiln_value3_uses(scene->keys, &system->look.color) & distance))
+        return kiln_reader_error_at(reader, root, path,
+                                    "cannot vary over the distance to the eye, since the system "
+                                    "paints with it");
+    return true;
+}
+
 static bool check_systems(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -277,7 +314,8 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit.from.%s.direction", system->name,
                  shape_name(emit));
-        if (!emit->outward && !at_all_keys(scene, &direction, 1, is_not_zero))
+        if (!emit->outward &&
+            (!at_all_keys(scene, &direction, 1, is_not_zero) || has_zero_key(scene, direction)))
             return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
         snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
         uint32_t cells = system->look.columns * system->look.rows;
@@ -299,7 +337,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !kiln_motion_layout_settle(reader, root, system) ||
-            !check_interactions(reader, root, system) ||
+            !check_interactions(reader, root, system) || !check_distances(reader, root, i) ||
             !kiln_particle_mesh_settle(reader, root, system))
             return false;
         if (!system->bounds.enabled)

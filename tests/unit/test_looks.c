@@ -2,7 +2,9 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
+#include "draw/moment/look_values.h"
 #include "draw/moment/looks.h"
 #include "shared/look_layout.h"
 #include "support/cmocka.h"
@@ -62,11 +64,147 @@ static void an_axis_has_any_length_but_0(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* The row of a particle's look, from the table and the values over other clocks. */
+static float4 row_of(const struct kiln_look_program *program, const float4 *rows,
+                     const struct value_clocks *clocks, uint32_t row)
+{
+    const float x = clocks->life * (float)(KILN_LOOK_SAMPLES - 1);
+    const uint32_t k = (uint32_t)x < KILN_LOOK_SAMPLES - 2 ? (uint32_t)x : KILN_LOOK_SAMPLES - 2;
+    const float4 a = rows[row * KILN_LOOK_SAMPLES + k], b = rows[row * KILN_LOOK_SAMPLES + k + 1];
+    const float t = x - (float)k;
+    const float4 look = {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t,
+                         a.w + (b.w - a.w) * t};
+    return kiln_look_multiply(rows, program, row, clocks, look);
+}
+
+static void assert_about(const char *what, float found, float expected)
+{
+    if (!(fabsf(found - expected) <= 0.004f * fmaxf(1.0f, fabsf(expected))))
+        fail_msg("%s is %.9g instead of %.9g", what, (double)found, (double)expected);
+}
+
+/* Whatever clock a value of a look has, a particle is drawn with the value that the scene says. */
+static void values_over_other_clocks_multiply(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(
+        "kiln: 1\n"
+        "systems:\n"
+        "  plain: {look: {size: {life: [1, 2]}}}\n"
+        "  smoke:\n"
+        "    look:\n"
+        "      fade: {in: 0, out: 0}\n"
+        "      size: {life: [1, 2], times: {random: [0.5, 2]}, plus: {age: {0 s: 0, 2 s: 1}}}\n"
+        "      stretch: {random: {0: 0, 0.5: 1, 1: 2}, ease: smooth}\n"
+        "      opacity: {speed: {0: 0, 8 m/s: 1}}\n"
+        "      soft: {distance: {2 m: 1, 20 m: 3}}\n"
+        "      color: {choose: [[0.1, 0.2, 0.3], [0.5, 0.6, 0.7], [0.9, 0.8, 0.1]],\n"
+        "              weights: [5, 1, 2], times: {height: {0 m: 1, 4 m: 0.5}}}\n"
+        "      lit: {noise: [0, 1], period: 0.2 s}\n"
+        "      bloom: [{random: [0, 1]}, 0.25, {age: {0 s: 0, 1 s: 1}, repeat: mirror}]\n"
+        "      thickness: {age: {0 s: 0, 0.7 s: 2}, repeat: loop}\n"
+        "      scale: {choose: [1, 3]}\n"
+        "      rotation: {random: [0 rad, 3 rad]}\n"
+        "      spin: {life: [0 rad/s, 6 rad/s], times: {random: [1, 2]}}\n"
+        "      intensity: {random: [1, 9]}\n"
+        "      cycles: {random: [1, 2]}\n",
+        NULL);
+    static struct kiln_look_program programs[KILN_MAX_SYSTEMS];
+    const uint32_t rows = kiln_look_rows(scene);
+    float4 *all = calloc((size_t)rows * KILN_LOOK_SAMPLES, sizeof *all);
+    assert_non_null(all);
+    assert_true(rows > 2 * KILN_LOOK_ROWS);
+    kiln_look_programs_fill(scene, programs);
+    assert_int_equal(programs[0].count, 0);
+    const float time_s = 1.3f;
+    kiln_looks_sample(scene, time_s, all);
+    kiln_look_programs_sample(scene, programs, time_s, all);
+    const float4 *own = all + (size_t)KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
+    const struct kiln_look *look = &scene->systems[1].look;
+    const uint32_t key = random_system_key(scene->seed, 1);
+    for (uint32_t serial = 0; serial < 400; serial++) {
+        struct value_clocks c = value_clocks_at(time_s, key);
+        c.life = (float)serial / 400.0f;
+        c.age_s = (float)(serial % 37) * 0.1f;
+        c.height = (float)(serial % 11) - 3.0f;
+        c.distance = (float)(serial % 29);
+        c.velocity = (float3){(float)(serial % 7), 1.0f, 2.0f};
+        c.stream = random_stream(key, serial);
+        /* the table is that of all systems, of which rows are those of the second */
+        float4 r[KILN_LOOK_ROWS];
+        for (uint32_t row = 0; row < KILN_LOOK_ROWS; row++) {
+            const float4 base = row_of(&programs[0], own, &c, row);
+            r[row] = kiln_look_multiply(all, &programs[1], row, &c, base);
+        }
+#define AT(value) value_at(scene->keys, look->value, c)
+        assert_about("size", r[KILN_LOOK_SHAPE].x, AT(size));
+        assert_about("stretch", r[KILN_LOOK_SHAPE].y, AT(stretch));
+        assert_about("opacity", r[KILN_LOOK_SHAPE].z, AT(opacity));
+        assert_about("soft", r[KILN_LOOK_SHAPE].w, AT(soft));
+        assert_about("red", r[KILN_LOOK_COVER].x, AT(color.x));
+        assert_about("green", r[KILN_LOOK_COVER].y, AT(color.y));
+        assert_about("blue", r[KILN_LOOK_COVER].z, AT(color.z));
+        assert_about("lit", r[KILN_LOOK_COVER].w, AT(lit));
+        assert_about("bloom's red", r[KILN_LOOK_BLOOM].x, AT(bloom.x));
+        assert_about("bloom's green", r[KILN_LOOK_BLOOM].y, AT(bloom.y));
+        assert_about("bloom's blue", r[KILN_LOOK_BLOOM].z, AT(bloom.z));
+        assert_about("scale", r[KILN_LOOK_SPREAD].x, AT(scale.min));
+        assert_about("scale", r[KILN_LOOK_SPREAD].y, AT(scale.max));
+        assert_about("rotation", r[KILN_LOOK_TURN].x, AT(rotation.min));
+        assert_about("cycles", r[KILN_LOOK_COOL].w, AT(cycles));
+        if (c.life > 0.0f)
+            assert_about("spin", r[KILN_LOOK_SPREAD].z,
+                         value_sum_at(scene->keys, look->spin.min, c, c.life) / c.life);
+#undef AT
+    }
+    free(all);
+    kiln_scene_destroy(&scene);
+}
+
+/* The light of a temperature that is random is that of a system with this temperature. */
+static void random_temperatures_have_their_light(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene =
+        load_scene("kiln: 1\n"
+                   "systems:\n"
+                   "  fire: {look: {blend: add, temperature: {random: [1000 K, 3000 K]}, color: "
+                   "[1, 0.5, 0]}}\n"
+                   "  same: {look: {blend: add, temperature: 2000 K, color: [1, 0.5, 0]}}\n",
+                   NULL);
+    static struct kiln_look_program programs[KILN_MAX_SYSTEMS];
+    float4 *all = calloc((size_t)kiln_look_rows(scene) * KILN_LOOK_SAMPLES, sizeof *all);
+    assert_non_null(all);
+    kiln_look_programs_fill(scene, programs);
+    kiln_looks_sample(scene, 0, all);
+    kiln_look_programs_sample(scene, programs, 0, all);
+    const float4 *same = all + (size_t)KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
+    uint32_t found = 0;
+    for (uint32_t serial = 0; serial < 20000; serial++) {
+        struct value_clocks c = value_clocks_at(0, random_system_key(scene->seed, 0));
+        c.stream = random_stream(c.system, serial);
+        const float kelvin = value_at(scene->keys, scene->systems[0].look.temperature, c);
+        if (fabsf(kelvin - 2000.0f) > 2.0f)
+            continue;
+        found++;
+        for (uint32_t row = KILN_LOOK_HOT; row <= KILN_LOOK_COOL; row++) {
+            const float4 a = row_of(&programs[0], all, &c, row);
+            const float4 b = same[row * KILN_LOOK_SAMPLES];
+            assert_true(fabsf(a.x - b.x) < 0.02f * b.x && fabsf(a.y - b.y) < 0.02f * b.y + 1e-6f);
+        }
+    }
+    assert_true(found > 10);
+    free(all);
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(turns_follow_their_curves),
         cmocka_unit_test(an_axis_has_any_length_but_0),
+        cmocka_unit_test(values_over_other_clocks_multiply),
+        cmocka_unit_test(random_temperatures_have_their_light),
     };
     return cmocka_run_group_tests_name("looks", tests, NULL, NULL);
 }

@@ -1,0 +1,124 @@
+/* Checks that each technique of the stage `simulate` computes the same bits as `cpu` where the
+ * values of a scene vary over every clock. If this fails, GLSL evaluates a value in another way
+ * than C (shaders/shared/value.h). */
+#include <string.h>
+
+#include "support/cmocka.h"
+#include "support/device.h"
+#include "support/parts.h"
+#include "support/simulation.h"
+
+enum { STEPS = 90 };
+
+/* Systems whose rows that move particles have values of every clock. */
+static const char FLYING[] =
+    "kiln: 1\n"
+    "seed: 3\n"
+    "output: {frames: 60}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit:\n"
+    "      rate: {noise: [500, 2000], period: 0.2 s, octaves: 2}\n"
+    "      life: {random: {0: 0.3, 0.8: 1, 1: 3}, times: {choose: [1, 0.5], weights: [1, 2]}}\n"
+    "      speed: {random: [1, 4], ease: out, plus: {noise: [0, 1], period: 0.3 s}}\n"
+    "      inherit: {choose: [0, 1]}\n"
+    "      from:\n"
+    "        disc:\n"
+    "          origin: {keys: {0 s: [0, 1, 0], 0.5 s: [1, 1, 0]}, ease: smooth, repeat: mirror,\n"
+    "                   plus: {noise: [[0, 0, -0.5], [0, 0.1, 0.5]], period: 0.4 s}}\n"
+    "          direction: {choose: [[0, 1, 0], [1, 1, 0], [0, 1, 1]], seed: 4}\n"
+    "          angle: {random: [5 deg, 40 deg]}\n"
+    "          radius: {noise: [0.1, 0.5], octaves: 3}\n"
+    "          turn: {keys: {0 s: 0 deg/s, 1 s: 90 deg/s}, ease: in}\n"
+    "    forces:\n"
+    "      - gravity: {acceleration: [0, {age: {0 s: -9, 1 s: -1}, ease: smooth}, 0]}\n"
+    "      - drag: {strength: {random: [0, 2]}, quadratic: {speed: {0: 0, 5 m/s: 0.5}}}\n"
+    "      - wind: {velocity: {random: [[-1, 0, 0], [1, 0, 2]]},\n"
+    "               pull: {height: {0 m: 0, 2 m: 3}, times: {life: [1, 0]}}}\n"
+    "      - curl: {strength: {noise: [0, 2], per: particle, octaves: 2}, scale: 0.5 m}\n"
+    "      - limit: {speed: {age: {0 s: 3 m/s, 0.4 s: 5 m/s}, repeat: loop,\n"
+    "                times: {keys: {0 s: 1, 1 s: 2}}, plus: {random: [0 m/s, 1 m/s]}}}\n"
+    "    collide:\n"
+    "      randomness: {random: [0, 0.5]}\n"
+    "      slowdown: {choose: [0.3, 0.9], weights: [1, 3]}\n"
+    "      restitution: {speed: {0: 0.9, 4: 0.4}, ease: step}\n"
+    "      friction: {life: [0, 0.4], times: {noise: [0, 2], per: particle}}\n"
+    "  sparks:\n"
+    "    emit:\n"
+    "      parent: {system: a, on: {trail: {rate: {life: [0, 8], times: {random: [0, 2]}}}}}\n"
+    "      life: {random: [0.1, 0.4]}\n"
+    "      speed: {random: {0: 0, 0.9: 0.5, 1: 3}}\n"
+    "    forces: [{gravity: {}}]\n"
+    "  trail:\n"
+    "    emit:\n"
+    "      parent: {system: a, on: {trail: {rate: {keys: {0 s: 1, 0.7 s: 9, 1 s: 0}}}}}\n"
+    "      life: 0.3 s\n";
+
+/* Particles that collide and attract each other by values of every clock. */
+static const char CROWD[] =
+    "kiln: 1\n"
+    "output: {frames: 60}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 1500, life: {random: [1 s, 2 s]}, from: {box: {origin: [0, 2, 0]}}}\n"
+    "    forces: [{gravity: {}}]\n"
+    "    interact:\n"
+    "      - collide: {as_drawn: true}\n"
+    "      - gravity: {strength: {random: [0, 0.02], times: {age: {0 s: 0, 1 s: 1}}}}\n"
+    "    look: {size: {random: [0.02, 0.06], times: {life: [1, 0.5]}}, scale: {choose: [1, 2]}}\n";
+
+static void agree(struct kiln_device *device, const char *text, uint32_t steps)
+{
+    static const struct {
+        enum kiln_simulate_technique technique;
+        const char *name;
+    } ways[] = {{KILN_SIMULATE_INPLACE, "inplace"},
+                {KILN_SIMULATE_FEEDBACK, "feedback"},
+                {KILN_SIMULATE_PINGPONG, "pingpong"},
+                {KILN_SIMULATE_TEXELS, "texels"}};
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "values", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    for (size_t i = 0; i < (test_is_full() ? 4 : 1); i++) {
+        struct simulation cpu, other;
+        uint64_t alive, other_alive;
+        simulation_start(&cpu, scene, NULL, 2);
+        simulation_start_with(&other, scene, device, ways[i].technique, 1);
+        for (uint32_t step = 1; step <= steps; step++) {
+            simulation_run(&cpu, 1);
+            simulation_run(&other, 1);
+            const struct kiln_state_hash a = simulation_hash(&cpu, &alive);
+            const struct kiln_state_hash b = simulation_hash(&other, &other_alive);
+            if (alive != other_alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
+                fail_msg("step %u: %08x%08x on cpu, %08x%08x with %s", step, a.lane[0], a.lane[1],
+                         b.lane[0], b.lane[1], ways[i].name);
+        }
+        assert_true(alive > 500);
+        simulation_end(&other);
+        simulation_end(&cpu);
+    }
+    kiln_scene_destroy(&scene);
+}
+
+static void flying_particles_agree(void **state)
+{
+    agree(*state, FLYING, STEPS);
+}
+
+static void crowds_agree(void **state)
+{
+    agree(*state, CROWD, STEPS / 2);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(flying_particles_agree),
+        test_on_device(crowds_agree),
+    };
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
+    return test_list_run(&list, "values", argc, argv, simulation_device_open, test_device_close);
+}
