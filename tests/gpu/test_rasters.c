@@ -91,6 +91,37 @@ static const struct text MIXED = {
     "      opacity: 0.01\n"
     "      temperature: 1700\n"};
 
+/* Looks whose values vary over every clock, and shapes of three kinds. */
+static const struct text VALUES = {
+    "values",
+    "kiln: 1\n"
+    "output: {frames: 60}\n"
+    "systems:\n"
+    "  fire:\n"
+    "    emit: {rate: 300, life: {random: [0.5 s, 2 s]}, speed: 2}\n"
+    "    look:\n"
+    "      atlas: \"builtin:fire\"\n"
+    "      blend: add\n"
+    "      temperature: {random: [1500 K, 2500 K], times: {life: [1, 0.7]}}\n"
+    "      intensity: {random: [5, 40]}\n"
+    "      size: {age: {0 s: 0.1, 1 s: 0.5}, times: {random: [0.5, 1.5]}}\n"
+    "      rotation: {random: [0 deg, 90 deg]}\n"
+    "      spin: {random: [0 deg/s, 90 deg/s]}\n"
+    "      cycles: {choose: [1, 2]}\n"
+    "  smoke:\n"
+    "    emit: {rate: 200, life: 2 s, speed: [1, 3], from: {sphere: {radius: 0.4}}}\n"
+    "    look:\n"
+    "      color: {choose: [[0.8, 0.3, 0.2], [0.2, 0.5, 0.9]], weights: [1, 2]}\n"
+    "      opacity: {speed: {0: 0.1, 3 m/s: 0.8}, plus: {noise: [-0.1, 0.1]}}\n"
+    "      lit: {height: {0 m: 0, 3 m: 1}}\n"
+    "      soft: {distance: {1 m: 1, 20 m: 4}}\n"
+    "      stretch: {noise: [0 s, 0.2 s], period: 0.5 s, octaves: 2}\n"
+    "      scale: {random: [0.3, 1]}\n"
+    "  points:\n"
+    "    emit: {rate: 400, life: 2 s, speed: [1, 3], from: {cone: {}}}\n"
+    "    look: {shape: point, point: {size: {choose: [2 px, 5 px, 9 px]}},\n"
+    "           color: [{random: [0, 1]}, 0.5, {age: {0 s: 0, 0.3 s: 1}, repeat: mirror}]}\n"};
+
 /* Loads a scene, and creates its stages and a stage for each technique. path: the scene's file, or
  * NULL to load `text`. */
 static void open_subject(struct subject *s, struct kiln_device *device, const char *path,
@@ -263,17 +294,20 @@ static void draw_pass(struct subject *s, const struct pass *pass)
 {
     struct kiln_error error = {0};
     struct kiln_particles_draw draw = list_pass(s, pass);
-    struct true_scene scene = {.scene = s->scene,
-                               .atlas = &s->stages.atlas,
-                               .view = draw.view,
-                               .backdrop = draw.backdrop,
-                               .lighting = draw.lighting,
-                               .table = calloc(KILN_LOOK_TEXELS, sizeof(float4))};
-    assert_non_null(scene.table);
     static struct kiln_look_program programs[KILN_MAX_SYSTEMS];
+    struct true_scene scene = {
+        .scene = s->scene,
+        .atlas = &s->stages.atlas,
+        .view = draw.view,
+        .backdrop = draw.backdrop,
+        .lighting = draw.lighting,
+        .table = calloc((size_t)kiln_look_rows(s->scene) * KILN_LOOK_SAMPLES, sizeof(float4)),
+        .programs = programs};
+    assert_non_null(scene.table);
     kiln_look_programs_fill(s->scene, programs);
     kiln_looks_fill(s->scene, scene.atlas, programs, scene.looks);
     kiln_looks_sample(s->scene, draw.view->clock.x, scene.table);
+    kiln_look_programs_sample(s->scene, programs, draw.view->clock.x, scene.table);
     struct true_picture truth;
     true_picture_init(&truth, s->scene->width, s->scene->height);
     true_draw(&scene, &draw, &truth);
@@ -331,14 +365,22 @@ static void techniques_agree_on_mixed_cells(void **state)
     assert_true(agree_on(test_device(), NULL, &MIXED));
 }
 
+static void techniques_agree_on_values(void **state)
+{
+    (void)state;
+    assert_true(agree_on(test_device(), NULL, &VALUES));
+}
+
 int main(int argc, char **argv)
 {
+    static const struct CMUnitTest values = test_on_device(techniques_agree_on_values);
     static const struct CMUnitTest faint = test_on_device(techniques_agree_on_what_is_faint);
     static const struct CMUnitTest mixed = test_on_device(techniques_agree_on_mixed_cells);
     static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
     struct test_list list = {.count = 0};
     test_list_add_full(&list, &faint, 1);
     test_list_add_full(&list, &mixed, 1);
+    test_list_add(&list, &values, 1);
     test_list_add_scenes(&list, scene, 7);
     return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);
 }

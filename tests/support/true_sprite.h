@@ -17,7 +17,8 @@ struct true_scene {
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_lighting *lighting;
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
-    float4 *table; /* values of the looks over life (shared/look_layout.h) */
+    float4 *table; /* values of the looks (shared/look_layout.h, draw/moment/look_values.h) */
+    const struct kiln_look_program *programs; /* of each system; NULL: values over life alone */
 };
 
 struct true_sprite {
