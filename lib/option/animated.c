@@ -79,31 +79,12 @@ static uint32_t draw_of(const struct kiln_reader *reader, const struct kiln_curv
     return (curve->option->draws & 255u) << 11 | (reader->item & 127u) << 4 | component << 2 | part;
 }
 
-/* What stands beside a clock. */
-enum beside { EASE, REPEAT, TIMES, PLUS, SEED, WEIGHTS, PERIOD, OCTAVES, PER, BESIDE_COUNT };
-
-static const struct {
-    const char *name;
-    uint32_t clocks; /* bits of the clocks beside which it may stand */
-    unsigned rows;   /* a bit KILN_ALLOW_* of the rows that take it; 0: all */
-} besides[BESIDE_COUNT] = {
-    [EASE] = {"ease", ~0u, 0},
-    [REPEAT] = {"repeat", 1u << KILN_CLOCK_TIME | 1u << KILN_CLOCK_AGE, KILN_ALLOW_FORMS},
-    [TIMES] = {"times", ~0u, KILN_ALLOW_PARTS},
-    [PLUS] = {"plus", ~0u, KILN_ALLOW_PARTS},
-    [SEED] = {"seed", 1u << KILN_CLOCK_RANDOM | 1u << KILN_CLOCK_NOISE, 0},
-    [WEIGHTS] = {"weights", 1u << KILN_CLOCK_RANDOM, 0},
-    [PERIOD] = {"period", 1u << KILN_CLOCK_NOISE, 0},
-    [OCTAVES] = {"octaves", 1u << KILN_CLOCK_NOISE, 0},
-    [PER] = {"per", 1u << KILN_CLOCK_NOISE, 0},
-};
-
 /* The entries of a mapping that is a value. */
 struct form {
     const struct kiln_node *node;  /* the mapping */
     const struct kiln_node *curve; /* its clock */
     const struct kiln_value_clock *clock;
-    const struct kiln_node *beside[BESIDE_COUNT]; /* NULL: missing */
+    const struct kiln_node *beside[KILN_VALUE_BESIDES]; /* NULL: missing */
 };
 
 static bool no_value(struct kiln_reader *reader, const struct kiln_option *option,
@@ -119,11 +100,11 @@ static bool no_value(struct kiln_reader *reader, const struct kiln_option *optio
 
 static bool unknown_entry(struct kiln_reader *reader, const struct kiln_node *entry)
 {
-    const char *names[BESIDE_COUNT + KILN_VALUE_CLOCKS];
+    const char *names[KILN_VALUE_BESIDES + KILN_VALUE_CLOCKS];
     size_t count = 0;
     char suggestion[512];
-    for (size_t i = 0; i < BESIDE_COUNT; i++)
-        names[count++] = besides[i].name;
+    for (size_t i = 0; i < KILN_VALUE_BESIDES; i++)
+        names[count++] = kiln_value_besides[i].name;
     for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++)
         names[count++] = kiln_value_clocks[i].name;
     kiln_option_suggest(suggestion, sizeof suggestion, entry->key->text, names, count);
@@ -143,8 +124,8 @@ static bool take_entry(struct kiln_reader *reader, struct form *form, const stru
         form->curve = entry;
         return true;
     }
-    for (size_t i = 0; i < BESIDE_COUNT; i++) {
-        if (strcmp(name, besides[i].name) == 0) {
+    for (size_t i = 0; i < KILN_VALUE_BESIDES; i++) {
+        if (strcmp(name, kiln_value_besides[i].name) == 0) {
             form->beside[i] = entry;
             return true;
         }
@@ -167,17 +148,17 @@ static bool check_form(struct kiln_reader *reader, const struct kiln_option *opt
         kiln_text_free(&allowed);
         return false;
     }
-    for (size_t i = 0; i < BESIDE_COUNT; i++) {
+    for (size_t i = 0; i < KILN_VALUE_BESIDES; i++) {
         const struct kiln_node *entry = form->beside[i];
-        const bool is_known = (besides[i].clocks & 1u << form->clock->clock) != 0 &&
-                              (i != WEIGHTS || form->clock->only_list) &&
-                              (i != EASE || !form->clock->only_list);
+        const bool is_known = (kiln_value_besides[i].clocks & 1u << form->clock->clock) != 0 &&
+                              (i != KILN_BESIDE_WEIGHTS || form->clock->only_list) &&
+                              (i != KILN_BESIDE_EASE || !form->clock->only_list);
         if (entry && !is_known)
             return kiln_reader_error(reader, entry->key, "'%s' does not go with '%s'",
-                                     besides[i].name, clock);
-        if (entry && besides[i].rows && !(option->clocks & besides[i].rows))
+                                     kiln_value_besides[i].name, clock);
+        if (entry && !kiln_value_takes_beside(option, i))
             return kiln_reader_error(reader, entry->key, "'%s' is not possible here",
-                                     besides[i].name);
+                                     kiln_value_besides[i].name);
     }
     return true;
 }
@@ -255,7 +236,7 @@ static bool read_points(struct kiln_reader *reader, const struct kiln_node *node
 /* Reads the weights of a choice, and finds at which part of all of them each entry begins. */
 static bool read_weights(struct kiln_reader *reader, const struct form *form, double *places)
 {
-    const struct kiln_node *weights = form->beside[WEIGHTS],
+    const struct kiln_node *weights = form->beside[KILN_BESIDE_WEIGHTS],
                            *entry = weights ? weights->first : NULL;
     const uint32_t count = form->curve->count;
     double sum = 0;
@@ -333,7 +314,8 @@ struct parts {
 static bool read_parts(struct kiln_reader *reader, const struct form *form,
                        const struct kiln_curve *curve, struct standing at, struct parts *parts)
 {
-    const struct kiln_node *times = form->beside[TIMES], *plus = form->beside[PLUS];
+    const struct kiln_node *times = form->beside[KILN_BESIDE_TIMES],
+                           *plus = form->beside[KILN_BESIDE_PLUS];
     struct kiln_option times_row = kiln_value_times_row(curve->option);
     struct kiln_option plus_row = kiln_value_plus_row(curve->option);
     size_t before = times ? kiln_reader_enter(reader, "times") : reader->path_length;
@@ -353,19 +335,18 @@ static bool read_parts(struct kiln_reader *reader, const struct form *form,
 static bool read_noise(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct form *form, float4 *entry, uint32_t *how)
 {
-    static const char *const per[] = {"system", "particle", NULL};
     uint32_t octaves = 1, whose = option->clocks & KILN_ALLOW_OWN_NOISE ? 1 : 0;
     float period_s = 1;
-    const struct kiln_node *period = form->beside[PERIOD];
+    const struct kiln_node *period = form->beside[KILN_BESIDE_PERIOD];
     size_t before = period ? kiln_reader_enter(reader, "period") : reader->path_length;
     if (period && !kiln_read_float(reader, &kiln_value_period, period, &period_s))
         return false;
     kiln_reader_leave(reader, before);
-    if (!read_whole(reader, form->beside[OCTAVES], &kiln_value_octaves, &octaves) ||
-        !read_word(reader, form->beside[PER], per, &whose))
+    if (!read_whole(reader, form->beside[KILN_BESIDE_OCTAVES], &kiln_value_octaves, &octaves) ||
+        !read_word(reader, form->beside[KILN_BESIDE_PER], kiln_value_whose, &whose))
         return false;
     if (whose == 1 && !(option->clocks & KILN_ALLOW_OWN_NOISE))
-        return kiln_reader_error(reader, form->beside[PER],
+        return kiln_reader_error(reader, form->beside[KILN_BESIDE_PER],
                                  "a noise of each particle is not possible here; allowed is "
                                  "per: system");
     entry->z = period_s;
@@ -380,7 +361,8 @@ static bool check_sums(struct kiln_reader *reader, const struct kiln_curve *curv
                        const struct form *form)
 {
     const struct kiln_option *option = curve->option;
-    if (option->clocks & KILN_ALLOW_FORMS || (!form->beside[TIMES] && !form->beside[PLUS]))
+    if (option->clocks & KILN_ALLOW_FORMS ||
+        (!form->beside[KILN_BESIDE_TIMES] && !form->beside[KILN_BESIDE_PLUS]))
         return true;
     char reached[48];
     for (unsigned i = 0; i < curve->count; i++) {
@@ -432,25 +414,25 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
         return false;
     curve.clock = form.clock;
     curve.ease = form.clock->only_list ? VALUE_STEP : VALUE_LINEAR;
-    if (!read_word(reader, form.beside[EASE], kiln_value_eases, &curve.ease) ||
-        !read_word(reader, form.beside[REPEAT], kiln_value_repeats, &repeat) ||
-        !read_whole(reader, form.beside[SEED], &kiln_value_seed, &seed) ||
+    if (!read_word(reader, form.beside[KILN_BESIDE_EASE], kiln_value_eases, &curve.ease) ||
+        !read_word(reader, form.beside[KILN_BESIDE_REPEAT], kiln_value_repeats, &repeat) ||
+        !read_whole(reader, form.beside[KILN_BESIDE_SEED], &kiln_value_seed, &seed) ||
         !read_parts(reader, &form, &curve, at, &parts))
         return false;
     if (curve.ease >= VALUE_SMOOTH && !(option->clocks & KILN_ALLOW_FORMS))
-        return kiln_reader_error(reader, form.beside[EASE],
+        return kiln_reader_error(reader, form.beside[KILN_BESIDE_EASE],
                                  "ease: '%s' is not possible here; allowed is linear or step",
                                  kiln_value_eases[curve.ease]);
     if (form.clock->clock == KILN_CLOCK_NOISE && !read_noise(reader, option, &form, &noise, &how))
         return false;
     how |= form.clock->clock | curve.ease << VALUE_EASE_SHIFT | repeat << VALUE_REPEAT_SHIFT;
-    how |= form.beside[TIMES] ? VALUE_TIMES : 0;
-    how |= form.beside[PLUS] ? VALUE_PLUS : 0;
+    how |= form.beside[KILN_BESIDE_TIMES] ? VALUE_TIMES : 0;
+    how |= form.beside[KILN_BESIDE_PLUS] ? VALUE_PLUS : 0;
     curve.entries = VALUE_NOT_PLAIN(how) ? 1 : 0;
     curve.entries = how & VALUE_TIMES ? 2 : curve.entries;
     curve.entries = how & VALUE_PLUS ? 3 : curve.entries;
-    const uint32_t draw =
-        draw_of(reader, &curve, at.component, at.part, form.beside[SEED] ? &seed : NULL);
+    const uint32_t draw = draw_of(reader, &curve, at.component, at.part,
+                                  form.beside[KILN_BESIDE_SEED] ? &seed : NULL);
     if (!read_keys(reader, &form, &curve, how | draw << VALUE_DRAW_SHIFT))
         return false;
     finish_entries(reader, &curve, &parts, noise);

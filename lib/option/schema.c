@@ -3,6 +3,8 @@
  * loader checks the order of values and the files that a text names. */
 #include "option/schema.h"
 
+#include "option/value_form.h"
+
 #define NUMBER_PATTERN "[-+]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
 
 void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out)
@@ -87,8 +89,10 @@ bool kiln_schema_write(FILE *out, const char *title, const struct kiln_option *r
     kiln_schema_members(rows, NULL, false, &root);
     kiln_text_add(&text,
                   "{\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
-                  "\"title\": \"%s\",\n%s\n",
-                  title, root.data ? root.data + 1 : "");
+                  "\"title\": \"%s\",\n\"definitions\": {",
+                  title);
+    kiln_value_schema_definitions(&text);
+    kiln_text_add(&text, "},\n%s\n", root.data ? root.data + 1 : "");
     bool ok = !text.failed && !root.failed && fputs(text.data, out) >= 0 && fflush(out) == 0;
     kiln_text_free(&root);
     kiln_text_free(&text);

@@ -37,77 +37,23 @@ static void describe_value(const struct kiln_option *option, struct kiln_text *o
         kiln_text_add(out, ", or %s", option->special_word);
 }
 
-/* Appends the schema of the keys of a clock. plain: that of each key's value. */
-static void schema_keys(const struct kiln_value_clock *clock, const char *plain,
-                        struct kiln_text *out)
-{
-    if (clock->takes_list && !clock->only_list)
-        kiln_text_add(out, "{\"anyOf\": [");
-    if (clock->takes_list)
-        kiln_text_add(out, "{\"type\": \"array\", \"minItems\": 1, \"items\": %s}", plain);
-    if (clock->only_list)
-        return;
-    kiln_text_add(out, clock->takes_list ? ", " : "");
-    kiln_text_add(out, "{\"type\": \"object\", \"minProperties\": 1, "
-                       "\"propertyNames\": {\"pattern\": ");
-    kiln_schema_number_pattern(clock->axis.dimension, out);
-    kiln_text_add(out, "}, \"additionalProperties\": %s}", plain);
-    kiln_text_add(out, clock->takes_list ? "]}" : "");
-}
-
-/* Appends the schemas of what may stand beside a clock. plain: that of a key's value. */
-static void schema_besides(const struct kiln_option *option, const char *plain,
-                           struct kiln_text *out)
-{
-    kiln_text_add(out, ", \"ease\": {\"enum\": [\"linear\", \"step\"%s]}",
-                  option->clocks & KILN_ALLOW_FORMS ? ", \"smooth\", \"in\", \"out\"" : "");
-    if (option->clocks & KILN_ALLOW_FORMS)
-        kiln_text_add(out, ", \"repeat\": {\"enum\": [\"none\", \"loop\", \"mirror\"]}");
-    if (option->clocks & (KILN_ALLOW_RANDOM | KILN_ALLOW_NOISE))
-        kiln_text_add(out, ", \"seed\": {\"type\": \"integer\", \"minimum\": %d, \"maximum\": %d}",
-                      (int)kiln_value_seed.min, (int)kiln_value_seed.max);
-    if (option->clocks & KILN_ALLOW_RANDOM)
-        kiln_text_add(out,
-                      ", \"weights\": {\"type\": \"array\", \"items\": {\"type\": \"number\"}}");
-    if (option->clocks & KILN_ALLOW_NOISE) {
-        kiln_text_add(out, ", \"period\": ");
-        kiln_schema_number(&kiln_value_period, out);
-        kiln_text_add(out,
-                      ", \"octaves\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": %u}",
-                      VALUE_NOISE_OCTAVES);
-        kiln_text_add(out, ", \"per\": {\"enum\": [\"system\"%s]}",
-                      option->clocks & KILN_ALLOW_OWN_NOISE ? ", \"particle\"" : "");
-    }
-    if (option->clocks & KILN_ALLOW_PARTS)
-        kiln_text_add(out,
-                      ", \"times\": {\"type\": [\"number\", \"string\", \"object\"]}, \"plus\": "
-                      "{\"anyOf\": [%s, {\"type\": [\"object\", \"array\"]}]}",
-                      plain);
-}
-
-/* Appends the schema of a mapping with a clock. */
+/* Appends the schema of a mapping with a clock. What may stand in it is a definition of the whole
+ * schema; plain: the schema of a key's value. */
 static void schema_clocks(const struct kiln_option *option, const char *plain,
                           struct kiln_text *out)
 {
-    const char *separator = "";
-    kiln_text_add(out, ", {\"type\": \"object\", \"oneOf\": [");
-    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
-        if (!(option->clocks & kiln_value_clocks[i].allowed))
-            continue;
-        kiln_text_add(out, "%s{\"required\": [\"%s\"]}", separator, kiln_value_clocks[i].name);
-        separator = ", ";
-    }
-    kiln_text_add(out, "], \"additionalProperties\": false, \"properties\": {");
-    separator = "";
-    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
-        if (!(option->clocks & kiln_value_clocks[i].allowed))
-            continue;
-        kiln_text_add(out, "%s\"%s\": ", separator, kiln_value_clocks[i].name);
-        schema_keys(&kiln_value_clocks[i], plain, out);
-        separator = ", ";
-    }
-    schema_besides(option, plain, out);
-    kiln_text_add(out, "}}");
+    if (!option->clocks)
+        return;
+    kiln_text_add(out,
+                  ", {\"allOf\": [{\"$ref\": \"#/definitions/varies_%u\"}, {\"type\": "
+                  "\"object\", \"patternProperties\": {\"^(",
+                  option->clocks);
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++)
+        kiln_text_add(out, "%s%s", i ? "|" : "", kiln_value_clocks[i].name);
+    kiln_text_add(out,
+                  ")$\": {\"anyOf\": [{\"type\": \"array\", \"items\": %s}, "
+                  "{\"type\": \"object\", \"additionalProperties\": %s}]}}}]}",
+                  plain, plain);
 }
 
 static void schema_value(const struct kiln_option *option, struct kiln_text *out)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "option/animated.h"
+#include "option/schema.h"
 
 /* The longest distance and the highest speed that a key may have, in metres and m/s. */
 #define FARTHEST 1000000
@@ -79,6 +80,31 @@ const char *const kiln_value_repeats[] = {
     NULL,
 };
 
+const char *const kiln_value_whose[] = {"system", "particle", NULL};
+
+#define ANY_ROW       ~0u
+#define RANDOM_CLOCKS (1u << KILN_CLOCK_RANDOM)
+#define NOISE_CLOCKS  (1u << KILN_CLOCK_NOISE)
+
+const struct kiln_value_beside kiln_value_besides[KILN_VALUE_BESIDES] = {
+    [KILN_BESIDE_EASE] = {"ease", ~0u, ANY_ROW},
+    [KILN_BESIDE_REPEAT] = {"repeat", 1u << KILN_CLOCK_TIME | 1u << KILN_CLOCK_AGE,
+                            KILN_ALLOW_FORMS},
+    [KILN_BESIDE_TIMES] = {"times", ~0u, KILN_ALLOW_PARTS},
+    [KILN_BESIDE_PLUS] = {"plus", ~0u, KILN_ALLOW_PARTS},
+    [KILN_BESIDE_SEED] = {"seed", RANDOM_CLOCKS | NOISE_CLOCKS,
+                          KILN_ALLOW_RANDOM | KILN_ALLOW_NOISE},
+    [KILN_BESIDE_WEIGHTS] = {"weights", RANDOM_CLOCKS, KILN_ALLOW_RANDOM},
+    [KILN_BESIDE_PERIOD] = {"period", NOISE_CLOCKS, KILN_ALLOW_NOISE},
+    [KILN_BESIDE_OCTAVES] = {"octaves", NOISE_CLOCKS, KILN_ALLOW_NOISE},
+    [KILN_BESIDE_PER] = {"per", NOISE_CLOCKS, KILN_ALLOW_NOISE},
+};
+
+bool kiln_value_takes_beside(const struct kiln_option *option, size_t beside)
+{
+    return (option->clocks & kiln_value_besides[beside].rows) != 0;
+}
+
 const struct kiln_option kiln_value_period = AXIS("period", KILN_SECONDS, 0.001, 1000000);
 const struct kiln_option kiln_value_octaves = {
     .name = "octaves", .type = &kiln_type_integer, .min = 1, .max = VALUE_NOISE_OCTAVES};
@@ -149,4 +175,87 @@ void kiln_value_describe_clocks(const struct kiln_option *option, struct kiln_te
                       : i + 1 == count ? " or "
                                        : ", ",
                       names[i]);
+}
+
+/* Appends the schema of the keys of a clock, whatever their values are. */
+static void define_clock(const struct kiln_value_clock *clock, struct kiln_text *out)
+{
+    const char *list = "{\"type\": \"array\", \"minItems\": 1}";
+    kiln_text_add(out, "\"over_%s\": {\"anyOf\": [%s%s", clock->name, clock->takes_list ? list : "",
+                  clock->takes_list && !clock->only_list ? ", " : "");
+    if (!clock->only_list) {
+        kiln_text_add(out, "{\"type\": \"object\", \"minProperties\": 1, "
+                           "\"propertyNames\": {\"pattern\": ");
+        kiln_schema_number_pattern(clock->axis.dimension, out);
+        kiln_text_add(out, "}}");
+    }
+    kiln_text_add(out, "]}");
+}
+
+static void define_words(const char *name, const char *const *words, struct kiln_text *out)
+{
+    kiln_text_add(out, ",\n\"beside_%s\": {\"enum\": [", name);
+    for (size_t i = 0; words[i]; i++)
+        kiln_text_add(out, "%s\"%s\"", i ? ", " : "", words[i]);
+    kiln_text_add(out, "]}");
+}
+
+static void define_whole(const struct kiln_option *row, struct kiln_text *out)
+{
+    kiln_text_add(out,
+                  ",\n\"beside_%s\": {\"type\": \"integer\", \"minimum\": %d, \"maximum\": %d}",
+                  row->name, (int)row->min, (int)row->max);
+}
+
+/* Appends the schema of a mapping with a clock, whatever the values of its keys are. */
+static void define_mapping(unsigned clocks, struct kiln_text *out)
+{
+    const struct kiln_option row = {.clocks = clocks};
+    const char *separator = "";
+    kiln_text_add(out, ",\n\"varies_%u\": {\"type\": \"object\", \"oneOf\": [", clocks);
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        if (clocks & kiln_value_clocks[i].allowed) {
+            kiln_text_add(out, "%s{\"required\": [\"%s\"]}", separator, kiln_value_clocks[i].name);
+            separator = ", ";
+        }
+    }
+    kiln_text_add(out, "], \"additionalProperties\": false, \"properties\": {");
+    separator = "";
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        if (clocks & kiln_value_clocks[i].allowed) {
+            kiln_text_add(out, "%s\"%s\": {\"$ref\": \"#/definitions/over_%s\"}", separator,
+                          kiln_value_clocks[i].name, kiln_value_clocks[i].name);
+            separator = ", ";
+        }
+    }
+    for (size_t i = 0; i < KILN_VALUE_BESIDES; i++) {
+        if (kiln_value_takes_beside(&row, i))
+            kiln_text_add(out, ", \"%s\": {\"$ref\": \"#/definitions/beside_%s\"}",
+                          kiln_value_besides[i].name, kiln_value_besides[i].name);
+    }
+    kiln_text_add(out, "}}");
+}
+
+void kiln_value_schema_definitions(struct kiln_text *out)
+{
+    for (size_t i = 0; i < KILN_VALUE_CLOCKS; i++) {
+        kiln_text_add(out, "%s", i ? ",\n" : "");
+        define_clock(&kiln_value_clocks[i], out);
+    }
+    define_words("ease", kiln_value_eases, out);
+    define_words("repeat", kiln_value_repeats, out);
+    define_words("per", kiln_value_whose, out);
+    define_whole(&kiln_value_seed, out);
+    define_whole(&kiln_value_octaves, out);
+    kiln_text_add(out, ",\n\"beside_period\": ");
+    kiln_schema_number(&kiln_value_period, out);
+    kiln_text_add(out, ",\n\"beside_weights\": {\"type\": \"array\", \"minItems\": 1, \"items\": ");
+    kiln_schema_number(&kiln_value_weight, out);
+    kiln_text_add(out,
+                  "},\n\"beside_times\": {\"type\": [\"number\", \"string\", \"object\"]},\n"
+                  "\"beside_plus\": {\"type\": [\"number\", \"string\", \"object\", \"array\"]}");
+    static const unsigned rows[] = {KILN_OVER_TIME, KILN_AT_BIRTH, KILN_OVER_LIFE, KILN_WHEN_DRAWN,
+                                    KILN_SUMMED_UP};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        define_mapping(rows[i], out);
 }

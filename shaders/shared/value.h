@@ -32,8 +32,9 @@
 #define VALUE_REPEAT_SHIFT 7u
 #define VALUE_TIMES        0x200u /* the value is multiplied by another one */
 #define VALUE_PLUS         0x400u /* another value is added */
-#define VALUE_OF_PARTICLE  0x800u /* each particle has a noise of its own, instead of each system  \
-                                   */
+#define VALUE_OF_PARTICLE                                                                          \
+    0x800u /* each particle has a noise of its own, instead of each system                         \
+            */
 #define VALUE_DRAW_SHIFT 12u
 #define VALUE_DRAW_BITS  20u
 

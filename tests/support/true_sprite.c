@@ -402,30 +402,6 @@ static void true_turn(const struct true_scene *t, struct true_subject *p, struct
         s->opacity *= p->half_size / (p->half_size + longer);
 }
 
-/* Multiplies a row by values over other clocks than life. unit.looks compares kiln_look_multiply
- * with the values of the scene. */
-static void true_multiply(const struct true_scene *t, uint32_t system, uint32_t row,
-                          const struct kiln_particle *record, struct true_subject *p)
-{
-    if (!t->programs)
-        return;
-    const float3 position = particle_position(*record);
-    const float4 eye = t->view->eye;
-    struct value_clocks clocks = value_clocks_at(t->view->clock.x, p->look->derived.random_key);
-    clocks.life = p->life;
-    clocks.age_s = (float)p->age;
-    clocks.height = position.y;
-    clocks.distance = float3_length(float3_sub(position, FLOAT3(eye.x, eye.y, eye.z)));
-    clocks.velocity = particle_velocity(*record);
-    clocks.stream = p->stream;
-    const float4 factor =
-        kiln_look_multiply(t->table, &t->programs[system], row, &clocks, FLOAT4(1, 1, 1, 1));
-    p->row[row][0] *= (double)factor.x;
-    p->row[row][1] *= (double)factor.y;
-    p->row[row][2] *= (double)factor.z;
-    p->row[row][3] *= (double)factor.w;
-}
-
 static void true_read(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_subject *p)
 {
@@ -435,10 +411,8 @@ static void true_read(const struct true_scene *t, uint32_t entry,
     float age_s = particle_age(*record, view->clock_step.x, view->clock.y);
     p->age = (double)age_s;
     p->life = particle_progress(age_s, particle_life_s(t->scene->keys, p->look->derived, *record));
-    for (uint32_t i = 0; i < KILN_LOOK_ROWS; i++) {
-        dvec_look(t->table, KILN_ENTRY_SYSTEM(entry), i, p->life, p->row[i]);
-        true_multiply(t, KILN_ENTRY_SYSTEM(entry), i, record, p);
-    }
+    for (uint32_t i = 0; i < KILN_LOOK_ROWS; i++)
+        true_look(t, KILN_ENTRY_SYSTEM(entry), i, record, p->row[i]);
     p->position = dvec_of3(particle_position(*record));
     p->moving = dvec_turn(view, dvec_of3(particle_velocity(*record)));
 }

@@ -58,6 +58,10 @@ struct true_place {
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_sprite *s);
 
+/* Computes a row of the look (KILN_LOOK_*) of a particle. */
+void true_look(const struct true_scene *t, uint32_t system, uint32_t row,
+               const struct kiln_particle *record, double out[4]);
+
 /* Finds the point of a sprite that the ray through the point (x, y) of the picture, px, meets.
  * Returns false if the ray misses the sprite. */
 bool true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,

@@ -38,17 +38,14 @@ struct place {
 };
 
 struct scalar_place {
-    size_t offset; /* in struct kiln_look */
+    size_t at; /* of the value in struct kiln_look, in bytes */
     struct place place;
     bool is_mean; /* the row has the mean from birth on */
 };
 
-#define SCALAR(member, target_, lanes_)                                                            \
+#define SCALAR(member, target, lanes)                                                              \
     {                                                                                              \
-        .offset = offsetof(struct kiln_look, member), .place = {                                   \
-            .target = target_,                                                                     \
-            .lanes = lanes_                                                                        \
-        }                                                                                          \
+        offsetof(struct kiln_look, member), {target, lanes, OF_ANY, PLAIN}, false                  \
     }
 
 static const struct scalar_place scalars[] = {
@@ -69,18 +66,14 @@ static const struct scalar_place scalars[] = {
     SCALAR(rotation.max, KILN_LOOK_TURN, Y),
     SCALAR(point_size, KILN_LOOK_TURN, Z),
     SCALAR(line_width, KILN_LOOK_TURN, W),
-    {offsetof(struct kiln_look, spin.min), {.target = KILN_LOOK_SPREAD, .lanes = Z}, true},
-    {offsetof(struct kiln_look, spin.max), {.target = KILN_LOOK_SPREAD, .lanes = W}, true},
-    {offsetof(struct kiln_look, temperature),
-     {.target = KILN_LOOK_HOT, .lanes = ALL_OF_COLOR, .light = HOT},
-     false},
-    {offsetof(struct kiln_look, temperature),
-     {.target = KILN_LOOK_COOL, .lanes = ALL_OF_COLOR, .light = COOL},
-     false},
+    {offsetof(struct kiln_look, spin.min), {KILN_LOOK_SPREAD, Z, OF_ANY, PLAIN}, true},
+    {offsetof(struct kiln_look, spin.max), {KILN_LOOK_SPREAD, W, OF_ANY, PLAIN}, true},
+    {offsetof(struct kiln_look, temperature), {KILN_LOOK_HOT, ALL_OF_COLOR, OF_ANY, HOT}, false},
+    {offsetof(struct kiln_look, temperature), {KILN_LOOK_COOL, ALL_OF_COLOR, OF_ANY, COOL}, false},
 };
 
 static const struct {
-    size_t offset;
+    size_t at; /* of the value in struct kiln_look, in bytes */
     struct place place;
 } vectors[] = {
     {offsetof(struct kiln_look, color), {KILN_LOOK_COVER, ALL_OF_COLOR, OF_SMOKE, PLAIN}},
@@ -133,13 +126,13 @@ static void find_own(const struct kiln_scene *scene, const struct kiln_look *loo
     own->count = 0;
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
         const struct kiln_value *value =
-            (const struct kiln_value *)((const char *)look + scalars[i].offset);
+            (const struct kiln_value *)((const char *)look + scalars[i].at);
         if (kiln_look_value_is_own(scene->keys, value))
             add_own(own, (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean});
     }
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         const struct kiln_value3 *vector =
-            (const struct kiln_value3 *)((const char *)look + vectors[i].offset);
+            (const struct kiln_value3 *)((const char *)look + vectors[i].at);
         if (vectors[i].place.of == OF_ANY || (vectors[i].place.of == OF_FIRE) == additive)
             add_vector(own, scene->keys, vector, vectors[i].place);
     }
