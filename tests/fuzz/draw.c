@@ -118,7 +118,50 @@ static void add_plain(struct choice *c, const struct kiln_option *row, int count
         add_numbers(c, row, count);
 }
 
-/* Adds a value that may vary over time or over life. */
+/* Adds what multiplies a value, or what is added to it. */
+static void add_part(struct choice *c, const struct kiln_option *row)
+{
+    static const char *const parts[] = {
+        "", ", times: {random: [-1, 2]}, plus: 0", ", times: {noise: [0, 1000000], octaves: 8}",
+        ", times: {keys: {0 s: -1000000, 0.04 s: 2}, repeat: mirror, ease: in}"};
+    const char *part = parts[take(c) % 4];
+    const bool is_random = strstr(part, "random") != NULL, is_noise = strstr(part, "noise") != NULL;
+    if ((row->clocks & KILN_ALLOW_FORMS) && (!is_random || (row->clocks & KILN_ALLOW_RANDOM)) &&
+        (!is_noise || (row->clocks & KILN_ALLOW_NOISE)) &&
+        (!is_random || row->type == &kiln_type_value))
+        kiln_text_add(&c->text, "%s", part);
+}
+
+/* Adds a value over one of the clocks that the row takes. */
+static void add_clock(struct choice *c, const struct kiln_option *row, int count)
+{
+    static const struct {
+        const char *begin, *middle, *end;
+        unsigned clock;
+    } clocks[] = {
+        {"{age: {0 s: ", ", 0.05 s: ", "}, repeat: loop, ease: smooth", KILN_ALLOW_AGE},
+        {"{speed: {0: ", ", 100000: ", "}, ease: out", KILN_ALLOW_SPEED},
+        {"{height: {-1000000: ", ", 1000000: ", "}", KILN_ALLOW_HEIGHT},
+        {"{distance: {0: ", ", 1000000: ", "}", KILN_ALLOW_DISTANCE},
+        {"{random: {0: ", ", 0.5: ", "}", KILN_ALLOW_RANDOM},
+        {"{choose: [", ", ", "]", KILN_ALLOW_RANDOM},
+        {"{noise: [", ", ", "], period: 0.001 s, octaves: 8", KILN_ALLOW_OWN_NOISE},
+    };
+    const size_t i = take(c) % (sizeof clocks / sizeof *clocks);
+    if (!(row->clocks & clocks[i].clock)) {
+        add_plain(c, row, count);
+        return;
+    }
+    kiln_text_add(&c->text, "%s", clocks[i].begin);
+    add_plain(c, row, count);
+    kiln_text_add(&c->text, "%s", clocks[i].middle);
+    add_plain(c, row, count);
+    kiln_text_add(&c->text, "%s", clocks[i].end);
+    add_part(c, row);
+    kiln_text_add(&c->text, "}");
+}
+
+/* Adds a value that may vary. */
 static void add_animated(struct choice *c, const struct kiln_option *row, int count)
 {
     const uint8_t how = take(c) % 8;
@@ -134,6 +177,8 @@ static void add_animated(struct choice *c, const struct kiln_option *row, int co
         kiln_text_add(&c->text, ", ");
         add_plain(c, row, count);
         kiln_text_add(&c->text, "]}");
+    } else if (how == 5 && row->clocks) {
+        add_clock(c, row, count);
     } else {
         add_plain(c, row, count);
     }
