@@ -83,32 +83,67 @@ static void assert_about(const char *what, float found, float expected)
         fail_msg("%s is %.9g instead of %.9g", what, (double)found, (double)expected);
 }
 
+static const char OF_EVERY_CLOCK[] =
+    "kiln: 1\n"
+    "systems:\n"
+    "  plain: {look: {size: {life: [1, 2]}}}\n"
+    "  smoke:\n"
+    "    look:\n"
+    "      fade: {in: 0, out: 0}\n"
+    "      size: {life: [1, 2], times: {random: [0.5, 2]}, plus: {age: {0 s: 0, 2 s: 1}}}\n"
+    "      stretch: {random: {0: 0, 0.5: 1, 1: 2}, ease: smooth}\n"
+    "      opacity: {speed: {0: 0, 8 m/s: 1}}\n"
+    "      soft: {distance: {2 m: 1, 20 m: 3}}\n"
+    "      color: {choose: [[0.1, 0.2, 0.3], [0.5, 0.6, 0.7], [0.9, 0.8, 0.1]],\n"
+    "              weights: [5, 1, 2], times: {height: {0 m: 1, 4 m: 0.5}}}\n"
+    "      lit: {noise: [0, 1], period: 0.2 s}\n"
+    "      bloom: [{random: [0, 1]}, 0.25, {age: {0 s: 0, 1 s: 1}, repeat: mirror}]\n"
+    "      thickness: {age: {0 s: 0, 0.7 s: 2}, repeat: loop}\n"
+    "      scale: {choose: [1, 3]}\n"
+    "      rotation: {random: [0 rad, 3 rad]}\n"
+    "      spin: {life: [0 rad/s, 6 rad/s], times: {random: [1, 2]}}\n"
+    "      intensity: {random: [1, 9]}\n"
+    "      cycles: {random: [1, 2]}\n";
+
+/* Compares rows of a look with the values of the scene. */
+static void compare_rows(const float4 r[KILN_LOOK_ROWS], const struct kiln_scene *scene,
+                         const struct value_clocks *clocks)
+{
+    const struct kiln_look *look = &scene->systems[1].look;
+    const struct value_clocks c = *clocks;
+    const struct {
+        const char *name;
+        float found;
+        const struct kiln_value *value;
+    } rows[] = {
+        {"size", r[KILN_LOOK_SHAPE].x, &look->size},
+        {"stretch", r[KILN_LOOK_SHAPE].y, &look->stretch},
+        {"opacity", r[KILN_LOOK_SHAPE].z, &look->opacity},
+        {"soft", r[KILN_LOOK_SHAPE].w, &look->soft},
+        {"red", r[KILN_LOOK_COVER].x, &look->color.x},
+        {"green", r[KILN_LOOK_COVER].y, &look->color.y},
+        {"blue", r[KILN_LOOK_COVER].z, &look->color.z},
+        {"lit", r[KILN_LOOK_COVER].w, &look->lit},
+        {"bloom's red", r[KILN_LOOK_BLOOM].x, &look->bloom.x},
+        {"bloom's green", r[KILN_LOOK_BLOOM].y, &look->bloom.y},
+        {"bloom's blue", r[KILN_LOOK_BLOOM].z, &look->bloom.z},
+        {"least scale", r[KILN_LOOK_SPREAD].x, &look->scale.min},
+        {"most scale", r[KILN_LOOK_SPREAD].y, &look->scale.max},
+        {"rotation", r[KILN_LOOK_TURN].x, &look->rotation.min},
+        {"cycles", r[KILN_LOOK_COOL].w, &look->cycles},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_about(rows[i].name, rows[i].found, value_at(scene->keys, *rows[i].value, c));
+    if (c.life > 0.0f)
+        assert_about("spin", r[KILN_LOOK_SPREAD].z,
+                     value_sum_at(scene->keys, look->spin.min, c, c.life) / c.life);
+}
+
 /* Whatever clock a value of a look has, a particle is drawn with the value that the scene says. */
 static void values_over_other_clocks_multiply(void **state)
 {
     (void)state;
-    struct kiln_scene *scene = load_scene(
-        "kiln: 1\n"
-        "systems:\n"
-        "  plain: {look: {size: {life: [1, 2]}}}\n"
-        "  smoke:\n"
-        "    look:\n"
-        "      fade: {in: 0, out: 0}\n"
-        "      size: {life: [1, 2], times: {random: [0.5, 2]}, plus: {age: {0 s: 0, 2 s: 1}}}\n"
-        "      stretch: {random: {0: 0, 0.5: 1, 1: 2}, ease: smooth}\n"
-        "      opacity: {speed: {0: 0, 8 m/s: 1}}\n"
-        "      soft: {distance: {2 m: 1, 20 m: 3}}\n"
-        "      color: {choose: [[0.1, 0.2, 0.3], [0.5, 0.6, 0.7], [0.9, 0.8, 0.1]],\n"
-        "              weights: [5, 1, 2], times: {height: {0 m: 1, 4 m: 0.5}}}\n"
-        "      lit: {noise: [0, 1], period: 0.2 s}\n"
-        "      bloom: [{random: [0, 1]}, 0.25, {age: {0 s: 0, 1 s: 1}, repeat: mirror}]\n"
-        "      thickness: {age: {0 s: 0, 0.7 s: 2}, repeat: loop}\n"
-        "      scale: {choose: [1, 3]}\n"
-        "      rotation: {random: [0 rad, 3 rad]}\n"
-        "      spin: {life: [0 rad/s, 6 rad/s], times: {random: [1, 2]}}\n"
-        "      intensity: {random: [1, 9]}\n"
-        "      cycles: {random: [1, 2]}\n",
-        NULL);
+    struct kiln_scene *scene = load_scene(OF_EVERY_CLOCK, NULL);
     static struct kiln_look_program programs[KILN_MAX_SYSTEMS];
     const uint32_t rows = kiln_look_rows(scene);
     float4 *all = calloc((size_t)rows * KILN_LOOK_SAMPLES, sizeof *all);
@@ -120,7 +155,6 @@ static void values_over_other_clocks_multiply(void **state)
     kiln_looks_sample(scene, time_s, all);
     kiln_look_programs_sample(scene, programs, time_s, all);
     const float4 *own = all + (size_t)KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
-    const struct kiln_look *look = &scene->systems[1].look;
     const uint32_t key = random_system_key(scene->seed, 1);
     for (uint32_t serial = 0; serial < 400; serial++) {
         struct value_clocks c = value_clocks_at(time_s, key);
@@ -130,32 +164,12 @@ static void values_over_other_clocks_multiply(void **state)
         c.distance = (float)(serial % 29);
         c.velocity = (float3){(float)(serial % 7), 1.0f, 2.0f};
         c.stream = random_stream(key, serial);
-        /* the table is that of all systems, of which rows are those of the second */
         float4 r[KILN_LOOK_ROWS];
         for (uint32_t row = 0; row < KILN_LOOK_ROWS; row++) {
-            const float4 base = row_of(&programs[0], own, &c, row);
-            r[row] = kiln_look_multiply(all, &programs[1], row, &c, base);
+            const float4 over_life = row_of(&programs[0], own, &c, row);
+            r[row] = kiln_look_multiply(all, &programs[1], row, &c, over_life);
         }
-#define AT(value) value_at(scene->keys, look->value, c)
-        assert_about("size", r[KILN_LOOK_SHAPE].x, AT(size));
-        assert_about("stretch", r[KILN_LOOK_SHAPE].y, AT(stretch));
-        assert_about("opacity", r[KILN_LOOK_SHAPE].z, AT(opacity));
-        assert_about("soft", r[KILN_LOOK_SHAPE].w, AT(soft));
-        assert_about("red", r[KILN_LOOK_COVER].x, AT(color.x));
-        assert_about("green", r[KILN_LOOK_COVER].y, AT(color.y));
-        assert_about("blue", r[KILN_LOOK_COVER].z, AT(color.z));
-        assert_about("lit", r[KILN_LOOK_COVER].w, AT(lit));
-        assert_about("bloom's red", r[KILN_LOOK_BLOOM].x, AT(bloom.x));
-        assert_about("bloom's green", r[KILN_LOOK_BLOOM].y, AT(bloom.y));
-        assert_about("bloom's blue", r[KILN_LOOK_BLOOM].z, AT(bloom.z));
-        assert_about("scale", r[KILN_LOOK_SPREAD].x, AT(scale.min));
-        assert_about("scale", r[KILN_LOOK_SPREAD].y, AT(scale.max));
-        assert_about("rotation", r[KILN_LOOK_TURN].x, AT(rotation.min));
-        assert_about("cycles", r[KILN_LOOK_COOL].w, AT(cycles));
-        if (c.life > 0.0f)
-            assert_about("spin", r[KILN_LOOK_SPREAD].z,
-                         value_sum_at(scene->keys, look->spin.min, c, c.life) / c.life);
-#undef AT
+        compare_rows(r, scene, &c);
     }
     free(all);
     kiln_scene_destroy(&scene);
