@@ -33,8 +33,8 @@ static uint32_t count_life_keys(const struct kiln_scene *scene)
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
         const struct kiln_range *life = &scene->systems[i].emit.life;
-        count += life->min.count;
-        count += kiln_range_is_one_value(life) ? 0 : life->max.count;
+        count += kiln_value_room(scene->keys, &life->min);
+        count += kiln_range_is_one_value(life) ? 0 : kiln_value_room(scene->keys, &life->max);
     }
     return count;
 }

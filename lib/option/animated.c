@@ -428,9 +428,7 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
     how |= form.clock->clock | curve.ease << VALUE_EASE_SHIFT | repeat << VALUE_REPEAT_SHIFT;
     how |= form.beside[KILN_BESIDE_TIMES] ? VALUE_TIMES : 0;
     how |= form.beside[KILN_BESIDE_PLUS] ? VALUE_PLUS : 0;
-    curve.entries = VALUE_NOT_PLAIN(how) ? 1 : 0;
-    curve.entries = how & VALUE_TIMES ? 2 : curve.entries;
-    curve.entries = how & VALUE_PLUS ? 3 : curve.entries;
+    curve.entries = kiln_value_entries(how);
     const uint32_t draw = draw_of(reader, &curve, at.component, at.part,
                                   form.beside[KILN_BESIDE_SEED] ? &seed : NULL);
     if (!read_keys(reader, &form, &curve, how | draw << VALUE_DRAW_SHIFT))

@@ -49,6 +49,27 @@ uint32_t kiln_range_uses(const float4 *keys, const struct kiln_range *range)
     return kiln_value_uses(keys, &range->min) | kiln_value_uses(keys, &range->max);
 }
 
+uint32_t kiln_value_entries(uint32_t how)
+{
+    if (how & VALUE_PLUS)
+        return 3;
+    if (how & VALUE_TIMES)
+        return 2;
+    return VALUE_NOT_PLAIN(how) ? 1 : 0;
+}
+
+uint32_t kiln_value_room(const float4 *keys, const struct kiln_value *value)
+{
+    uint32_t room = 0;
+    for (uint32_t part = 0; value->count > 0 && part < VALUE_ENTRIES; part++) {
+        if (!has_part(value, part))
+            continue;
+        const struct kiln_value one = value_part(keys, *value, part);
+        room += one.count > 0 ? one.count + kiln_value_entries(one.how) : 0;
+    }
+    return room;
+}
+
 /* Returns whether a component of a vector goes with the first one. */
 static bool goes_with(const float4 *keys, const struct kiln_value *first,
                       const struct kiln_value *other)

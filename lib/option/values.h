@@ -40,6 +40,13 @@ uint32_t kiln_value_uses(const float4 *keys, const struct kiln_value *value);
 uint32_t kiln_value3_uses(const float4 *keys, const struct kiln_value3 *value);
 uint32_t kiln_range_uses(const float4 *keys, const struct kiln_range *range);
 
+/* Returns how many entries of the table a value takes: its keys, the entries before them, and those
+ * of what multiplies it and is added to it. */
+uint32_t kiln_value_room(const float4 *keys, const struct kiln_value *value);
+
+/* Returns how many entries before its first key a value has. */
+uint32_t kiln_value_entries(uint32_t how);
+
 /* Returns whether the components of a vector vary as a whole: by the same clock, with keys at the
  * same places, and multiplied by the same value. */
 bool kiln_value3_is_whole(const float4 *keys, const struct kiln_value3 *value);

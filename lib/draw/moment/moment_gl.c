@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "gpu/buffer.h"
+#include "option/value_curve.h"
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_look) == 112 + 16 * KILN_MAX_TEXTURES, "std140");
@@ -54,18 +55,42 @@ void kiln_moment_gl_destroy(struct kiln_moment_gl **gl)
     *gl = NULL;
 }
 
-/* Appends the keys of a value to a table of `count` keys, and points the value at them. Returns
- * false if the table has no room for them. */
-static bool pack_value(const struct kiln_scene *scene, struct kiln_value *value, float4 *keys,
-                       uint32_t *count)
+/* A table of keys that is being filled. */
+struct packing {
+    const float4 *from; /* the scene's keys */
+    float4 *keys;
+    uint32_t count;
+};
+
+/* Appends the keys of one part of a value, after room for its entries, and points the part at them.
+ * Returns false if the table has no room for them. */
+static bool pack_part(struct packing *p, struct kiln_value *part, uint32_t entries)
 {
-    if (value->count > KILN_BLOCK_KEYS - *count)
+    if (part->count == 0)
+        return true;
+    if (part->count + entries > KILN_BLOCK_KEYS - p->count)
         return false;
-    if (value->count > 0)
-        memcpy(keys + *count, scene->keys + value->first, value->count * sizeof *keys);
-    value->first = *count;
-    *count += value->count;
+    memcpy(p->keys + p->count, p->from + part->first - entries,
+           (part->count + entries) * sizeof *p->keys);
+    part->first = p->count + entries;
+    p->count += part->count + entries;
     return true;
+}
+
+/* Appends the keys of a value, and of what multiplies it and is added to it (shared/value.h). */
+static bool pack_value(struct packing *p, struct kiln_value *value)
+{
+    const uint32_t bits[] = {VALUE_TIMES, VALUE_PLUS};
+    const struct kiln_value before = *value;
+    bool fits = pack_part(p, value, kiln_value_entries(value->how));
+    for (uint32_t i = 0; fits && value->count > 0 && i < 2; i++) {
+        if (!(value->how & bits[i]))
+            continue;
+        struct kiln_value part = value_part(p->from, before, i + 1);
+        fits = pack_part(p, &part, kiln_value_entries(part.how));
+        p->keys[value->first - 2 - i] = kiln_curve_pack(&part);
+    }
+    return fits;
 }
 
 /* Fills the table of keys for drawing. Where the scene's keys do not fit into a uniform block, the
@@ -74,15 +99,14 @@ static bool pack_value(const struct kiln_scene *scene, struct kiln_value *value,
 static bool fill_keys(const struct kiln_scene *scene, struct kiln_draw_look *looks, float4 *keys,
                       struct kiln_error *error)
 {
-    uint32_t count = 0;
+    struct packing packing = {.from = scene->keys, .keys = keys};
     bool fits = true;
     if (scene->key_count > 0 && !kiln_scene_stores_keys(scene))
         memcpy(keys, scene->keys, scene->key_count * sizeof *keys);
     for (uint32_t i = 0; fits && i < scene->system_count && kiln_scene_stores_keys(scene); i++) {
         struct kiln_range *life = &looks[i].derived.life;
         const bool is_one = kiln_range_is_one_value(life);
-        fits = pack_value(scene, &life->min, keys, &count) &&
-               (is_one || pack_value(scene, &life->max, keys, &count));
+        fits = pack_value(&packing, &life->min) && (is_one || pack_value(&packing, &life->max));
         if (is_one)
             life->max = life->min;
     }
