@@ -11,6 +11,9 @@
 /* The constant of an animated number if the file has the option's word instead. */
 #define KILN_VALUE_BY_WORD (-1.0f)
 
+/* An integer if the file has the option's word instead. */
+#define KILN_INTEGER_BY_WORD UINT32_MAX
+
 /* Holds a positive fraction in its lowest terms, or 0/1 where the option has a word for it. */
 struct kiln_rational {
     uint32_t num, den;

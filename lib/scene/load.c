@@ -18,6 +18,7 @@
 #include "option/override.h"
 #include "scene/asset_path.h"
 #include "scene/mesh_notes.h"
+#include "scene/parts.h"
 #include "scene/place.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
@@ -65,7 +66,7 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
-    bool ok = kiln_print_scene(scene, 0, &text), read = true;
+    bool ok = kiln_print_scene(scene, KILN_PART_HASHED, &text), read = true;
     for (uint32_t i = 0; ok && read && i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
         for (uint32_t k = 0; read && k < look->atlas_count; k++)

@@ -231,10 +231,11 @@ void kiln_scene_destroy(struct kiln_scene **scene)
 
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system)
 {
-    return (struct kiln_derived_params){.random_key = random_system_key(scene->seed, system),
-                                        .warmup_steps = scene->warmup_steps,
-                                        .dt_s = scene->dt_s,
-                                        .life = scene->systems[system].emit.life};
+    return (struct kiln_derived_params){
+        .random_key = random_system_key(scene->seed, scene->systems[system].seed),
+        .warmup_steps = scene->warmup_steps,
+        .dt_s = scene->dt_s,
+        .life = scene->systems[system].emit.life};
 }
 
 const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *scene,

@@ -256,9 +256,13 @@ static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 
 /* ---- systems --------------------------------------------------------------------------------- */
 
+/* The largest number of a system: the key of the next one would be that of system 0 (random.h). */
+#define KILN_MAX_SYSTEM_SEED (UINT32_MAX - 1)
+
 struct kiln_system {
     const char *name;
     bool enabled;
+    uint32_t seed; /* number of the system in shared/random.h: its place, if the scene has none */
     struct kiln_emitter emit;
     struct kiln_force forces[KILN_MAX_FORCES];
     uint32_t force_count;
@@ -478,7 +482,9 @@ struct kiln_scene {
 
     float4 *keys; /* keys: x, y, slope, integral from 0 */
     uint32_t key_count;
-    char hash[65]; /* SHA-256, in hex, of the text of kiln_scene_print and of the textures */
+    /* SHA-256, in hex, of the rows of KILN_PART_HASHED (scene/parts.h), as they are printed, and of
+     * the textures */
+    char hash[65];
 };
 
 /* Claims the files that the scene was read from as read; errors as of kiln_claims_read. */

@@ -77,6 +77,30 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 
 /* ---- systems -------------------------------------------------------------------------------- */
 
+/* Gives each system without a seed its place as its number, and warns where another system has
+ * asked for that number. Two systems that both ask for one number are meant to draw alike. */
+static void settle_seeds(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    bool pinned[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        pinned[i] = scene->systems[i].seed != KILN_INTEGER_BY_WORD;
+        scene->systems[i].seed = pinned[i] ? scene->systems[i].seed : i;
+    }
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        for (uint32_t k = 0; k < scene->system_count && !pinned[i]; k++) {
+            const struct kiln_system *own = &scene->systems[i], *other = &scene->systems[k];
+            char path[64];
+            snprintf(path, sizeof path, "systems.%s", own->name);
+            if (pinned[k] && other->seed == own->seed && own->enabled && other->enabled)
+                kiln_reader_warn_at(reader, root, path,
+                                    "its place is %u, which is also the seed of systems.%s, so "
+                                    "both draw the same numbers; a seed of its own sets it apart",
+                                    own->seed, other->name);
+        }
+    }
+}
+
 /* Bounds the births of a system over the whole run. */
 static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uint32_t index)
 {
@@ -460,6 +484,7 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
 
 bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
 {
+    settle_seeds(reader, root);
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
            kiln_family_settle(reader, root) && settle_capacity(reader, root) &&

@@ -26,7 +26,7 @@ struct tray {
 
 /* A plotter: something that has every type. */
 struct plotter {
-    uint32_t version, pens, width[2];
+    uint32_t version, pens, paths, width[2];
     bool quiet, limited;
     struct kiln_rational rate;
     double pause_s, limit_s;
@@ -96,6 +96,8 @@ TABLE(rows) = {
     SWITCH(NO_PART, "limit", limit, limited, "none", "When it gives up."),
     {ROW(NO_PART, "width", pair, width, "[1, 2]", "Of thin and thick lines."),
      LIMITS(KILN_PIXELS, 1, 9)},
+    {ROW(NO_PART, "paths", integer, paths, "auto", "At a time."), LIMITS(KILN_PLAIN, 0, 9),
+     .special_word = "auto"},
     BOOLEAN(NO_PART, "quiet", quiet, "false", "It makes no noise."),
     {ROW(NO_PART, "rate", rational, rate, "auto", "Lines a second."), LIMITS(KILN_PLAIN, 1, 100),
      .special_word = "auto"},
@@ -118,6 +120,7 @@ static const char everything[] = "plotter: 1\n"
                                  "pens: {count: 8}\n"
                                  "limit: {time: 90 s}\n"
                                  "width: [3, 9]\n"
+                                 "paths: 0\n"
                                  "quiet: true\n"
                                  "rate: 29.97\n"
                                  "pause: 20 ms\n"
@@ -181,7 +184,7 @@ static void a_document_fills_its_target(void **state)
     read_plotter(&r, everything);
     const struct plotter *p = &r.plotter;
     assert_true(p->quiet && p->limited && p->limit_s == 90 && p->pause_s == 0.02);
-    assert_true(p->pens == 8 && p->width[0] == 3 && p->width[1] == 9);
+    assert_true(p->pens == 8 && p->width[0] == 3 && p->width[1] == 9 && p->paths == 0);
     assert_true(p->rate.num == 30000 && p->rate.den == 1001);
     assert_int_equal(p->medium, MEDIUM_GLASS);
     assert_string_equal(p->title, "a \"line\"");
@@ -205,6 +208,7 @@ static void what_is_not_said_has_its_default(void **state)
     read_plotter(&r, "plotter: 1");
     const struct plotter *p = &r.plotter;
     assert_true(!p->quiet && !p->limited && p->pens == 4 && p->rate.num == 0);
+    assert_int_equal(p->paths, KILN_INTEGER_BY_WORD);
     assert_true(p->medium == MEDIUM_PAPER && !p->room.enabled && p->speed.constant == 1.0f);
     assert_string_equal(p->title, "");
     assert_null(r.reader.keys);
@@ -244,6 +248,8 @@ static void errors_say_where_and_in_what(void **state)
          "p.yaml:2:8: pens.cuont: unknown key (did you mean 'count'?)"},
         {"plotter: 1\nlimit: {time: 2 d}",
          "p.yaml:2:15: limit.time: unit 'd' is wrong; allowed is s, ms, min or h"},
+        {"plotter: 1\npaths: ten",
+         "p.yaml:2:8: paths: expected a whole number from 0 to 9, or auto, found 'ten'"},
         {"plotter: 1\ntitle: 123456789012345678901",
          "p.yaml:2:8: title: the text has 21 bytes; at most 20 are allowed"},
         {"plotter: 1\nmarks: [dot: 1 mm, circle: {}]",
@@ -267,9 +273,9 @@ static void an_error_finds_its_place_by_a_path(void **state)
         kiln_node_parse(r.scratch, everything, sizeof everything - 1, &r.origin, &r.error);
     assert_non_null(root);
     assert_false(kiln_reader_error_at(&r.reader, root, "marks.1.bar.length", "too %s", "long"));
-    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:16:34: marks.1.bar.length: too long");
+    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:17:34: marks.1.bar.length: too long");
     kiln_reader_error_at(&r.reader, root, "marks.0.dot.color", "dull");
-    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:16:14: marks.0.dot.color: dull");
+    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:17:14: marks.0.dot.color: dull");
     end(&r);
 }
 
@@ -299,7 +305,7 @@ static void count_key(void *user, const struct kiln_option_key *key)
 {
     static const char *const words[][2] = {
         {"quiet", "true|false"}, {"medium", "paper|glass"}, {"rate", "auto"},
-        {"room", "none"},        {"limit", "none"},
+        {"room", "none"},        {"limit", "none"},         {"paths", "auto"},
     };
     unsigned *found = user;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
@@ -315,7 +321,7 @@ static void words_are_offered_as_a_file_has_them(void **state)
     (void)state;
     unsigned found = 0;
     assert_true(kiln_reference_visit(rows, count_key, &found));
-    assert_int_equal(found, 5);
+    assert_int_equal(found, 6);
 }
 
 static void a_reference_and_a_schema_follow(void **state)
@@ -332,6 +338,8 @@ static void a_reference_and_a_schema_follow(void **state)
         "\"title\": {\"description\": \"What it draws.\", "
         "\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 0, "
         "\"maxLength\": 20}",
+        "\"paths\": {\"description\": \"At a time.\", \"anyOf\": [{\"type\": \"integer\", "
+        "\"minimum\": 0, \"maximum\": 9}, {\"const\": \"auto\"}]}",
         "\"required\": [\"plotter\"]",
     };
     char *text = NULL;
