@@ -108,8 +108,8 @@ struct kiln_option {
     /* KILN_ALLOW_* for keys over time or life; a constant is always allowed */
     unsigned clocks;
     const char *const *choices; /* words in the order of the enum, NULL at the end */
-    /* a word that stands for 0/1 (rational), for KILN_VALUE_BY_WORD (value, whose min is at least
-     * 0) or for KILN_INTEGER_BY_WORD (integer, whose max is below it) */
+    /* a word that stands for 0/1 (rational), KILN_VALUE_BY_WORD (value, whose min is at least 0),
+     * KILN_RANGE_BY_WORD (range) or KILN_INTEGER_BY_WORD (integer, whose max is below it) */
     const char *special_word;
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;

@@ -114,7 +114,9 @@ TABLE(fade) = {
 
 PUBLIC_TABLE(kiln_options_look) = {
     {ROW(LOOK, "atlas", assets, atlas, "\"builtin:smoke\"",
-         "The texture, whose cells play in order. Of several textures, each particle gets one."),
+         "The texture, whose cells play in order. Of several textures, each particle gets one. "
+         "Cells of a file keep their proportions: the longer edge of one is as long as the "
+         "billboard's, and it lies in the middle of the other."),
      COUNTED(atlas, atlas_count)},
     {ROW(LOOK, "cells", pair, cells, "[8, 8]",
          "Columns and rows of cells in an atlas file. Their product is the number of cells: a "
@@ -167,10 +169,12 @@ PUBLIC_TABLE(kiln_options_look) = {
     BOOLEAN(LOOK, "stretch_dims", stretch_dims, "false",
             "true spreads the light of a billboard over its stretch, as the shutter of a camera "
             "does: it is fainter by the factor by which it is longer."),
-    RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
-          "[0 deg, 360 deg]",
-          "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
-          "it."),
+    {ROW(LOOK, "rotation", range, rotation, "auto",
+         "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
+         "it. `auto` is any angle, but 0 deg for billboards whose atlas are files of one cell "
+         "(`cells: [1, 1]`), such as a logo: they are upright. These are not mirrored, either, as "
+         "half of all other particles are."),
+     LIMITS(KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600)), .clocks = BOTH, .special_word = "auto"},
     RANGE(
         LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",
         "Angular speed of a particle. Speed and direction are chosen at random for each particle."),
@@ -200,8 +204,10 @@ PUBLIC_TABLE(kiln_options_look) = {
     VALUE(LOOK, "near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
           "Distance beyond the camera's near plane over which a particle fades in."),
     COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Factor on the colour that goes to the bloom."),
-    VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
-          "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights."),
+    {ROW(LOOK, "lit", value, lit, "auto",
+         "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights. `auto` "
+         "is 1 for spheres and meshes, and 0 for all other shapes."),
+     LIMITS(KILN_FRACTION, 0, 1), .clocks = BOTH, .special_word = "auto"},
     VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
           "How strongly a particle of blend alpha shadows itself and what lies behind it as seen "
           "from a light: a factor on the light that it absorbs."),

@@ -12,6 +12,7 @@
 #include "scene/asset_path.h"
 #include "scene/family.h"
 #include "scene/instant.h"
+#include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
@@ -299,6 +300,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         const struct kiln_emitter *emit = &system->emit;
         const struct kiln_value3 *direction = &emit->direction;
         char path[128];
+        kiln_look_settle(&system->look);
         snprintf(path, sizeof path, "systems.%s.emit.from.%s.direction", system->name,
                  shape_name(emit));
         if (!emit->outward && !at_all_keys(scene, &direction, 1, is_not_zero))

@@ -222,7 +222,7 @@ static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
     uint32_t number = (uint32_t)(random_unit(stream, RANDOM_TEXTURE) * (float)look->flags.w);
     uint4 texture = look->textures[number < look->flags.w ? number : look->flags.w - 1];
     float cells = (float)texture.y, position = passes * (cells - 1.0f);
-    if (look->flags.y != 0)
+    if ((look->flags.y & LOOK_RANDOM_START) != 0)
         position += random_unit(stream, RANDOM_CELL) * cells;
     uint32_t first = (uint32_t)floorf(position);
     s->layers[0] = texture.x + first % texture.y;
@@ -394,7 +394,8 @@ static void true_turn(const struct true_scene *t, struct true_subject *p, struct
     double longer = true_up(angle, p->row[KILN_LOOK_SHAPE][1], in_plane, facing, up);
     dvec upwards = dvec_add(dvec_scale(p->axes[0], up[0]), p->axes[1], up[1]);
     dvec sideways = dvec_add(dvec_scale(p->axes[0], up[1]), p->axes[1], -up[0]);
-    p->axes[0] = backwards ? dvec_scale(sideways, -1) : sideways;
+    const bool mirrors = (p->look->flags.y & LOOK_UNMIRRORED) == 0;
+    p->axes[0] = backwards && mirrors ? dvec_scale(sideways, -1) : sideways;
     p->axes[1] = upwards;
     s->right = dvec_scale(p->axes[0], p->half_size);
     s->up = dvec_scale(p->axes[1], p->half_size + longer);

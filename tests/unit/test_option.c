@@ -35,7 +35,7 @@ struct plotter {
     struct kiln_bounds room;
     struct kiln_value speed;
     struct kiln_value3 place, ink;
-    struct kiln_range pressure;
+    struct kiln_range pressure, tilt;
     struct tray trays[2];
     uint32_t tray_count;
     struct mark_of marks[3];
@@ -111,6 +111,8 @@ TABLE(rows) = {
     VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
     COLOR(NO_PART, "ink", ink, 1, TIME, "0", "What it draws with."),
     RANGE(NO_PART, "pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
+    {ROW(NO_PART, "tilt", range, tilt, "auto", "Of the pen."), LIMITS(KILN_PLAIN, -2, 2),
+     .special_word = "auto"},
     MAP(NO_PART, "trays", trays, tray, tray_count, "{}", "The trays by their names."),
     LIST(NO_PART, "marks", marks, mark, mark_count, "[]", "What it draws."),
     END,
@@ -131,6 +133,7 @@ static const char everything[] = "plotter: 1\n"
                                  "place: {keys: {0 s: [0, 1, 2], 1 s: [3, 4, 5]}}\n"
                                  "ink: 0.25\n"
                                  "pressure: [0.25, 0.5]\n"
+                                 "tilt: -1.5\n"
                                  "trays: {upper: {}, lower: {sheets: 7}}\n"
                                  "marks: [dot: 5 mm, bar: {length: 10 cm}]\n";
 
@@ -192,6 +195,7 @@ static void a_document_fills_its_target(void **state)
     assert_true(value_at(r.reader.keys, p->speed, 1.0f, 0.0f) == 2.0f);
     assert_true(value3_at(r.reader.keys, p->place, 0.5f, 0.0f).z == 3.5f);
     assert_true(p->ink.y.constant == 0.25f && p->pressure.max.constant == 0.5f);
+    assert_true(p->tilt.min.constant == -1.5f && p->tilt.max.constant == -1.5f);
     assert_int_equal(p->tray_count, 2);
     assert_string_equal(p->trays[1].name, "lower");
     assert_true(p->trays[0].sheets == 100 && p->trays[1].sheets == 7);
@@ -209,6 +213,7 @@ static void what_is_not_said_has_its_default(void **state)
     const struct plotter *p = &r.plotter;
     assert_true(!p->quiet && !p->limited && p->pens == 4 && p->rate.num == 0);
     assert_int_equal(p->paths, KILN_INTEGER_BY_WORD);
+    assert_true(kiln_range_is_by_word(&p->tilt) && !kiln_range_is_by_word(&p->pressure));
     assert_true(p->medium == MEDIUM_PAPER && !p->room.enabled && p->speed.constant == 1.0f);
     assert_string_equal(p->title, "");
     assert_null(r.reader.keys);
@@ -250,6 +255,8 @@ static void errors_say_where_and_in_what(void **state)
          "p.yaml:2:15: limit.time: unit 'd' is wrong; allowed is s, ms, min or h"},
         {"plotter: 1\npaths: ten",
          "p.yaml:2:8: paths: expected a whole number from 0 to 9, or auto, found 'ten'"},
+        {"plotter: 1\ntilt: [auto, 1]",
+         "p.yaml:2:8: tilt: expected a number from -2 to 2, found 'auto'"},
         {"plotter: 1\ntitle: 123456789012345678901",
          "p.yaml:2:8: title: the text has 21 bytes; at most 20 are allowed"},
         {"plotter: 1\nmarks: [dot: 1 mm, circle: {}]",
@@ -273,9 +280,9 @@ static void an_error_finds_its_place_by_a_path(void **state)
         kiln_node_parse(r.scratch, everything, sizeof everything - 1, &r.origin, &r.error);
     assert_non_null(root);
     assert_false(kiln_reader_error_at(&r.reader, root, "marks.1.bar.length", "too %s", "long"));
-    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:17:34: marks.1.bar.length: too long");
+    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:18:34: marks.1.bar.length: too long");
     kiln_reader_error_at(&r.reader, root, "marks.0.dot.color", "dull");
-    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:17:14: marks.0.dot.color: dull");
+    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:18:14: marks.0.dot.color: dull");
     end(&r);
 }
 
@@ -304,8 +311,8 @@ static void keys_are_overridden_by_the_table(void **state)
 static void count_key(void *user, const struct kiln_option_key *key)
 {
     static const char *const words[][2] = {
-        {"quiet", "true|false"}, {"medium", "paper|glass"}, {"rate", "auto"},
-        {"room", "none"},        {"limit", "none"},         {"paths", "auto"},
+        {"quiet", "true|false"}, {"medium", "paper|glass"}, {"rate", "auto"}, {"room", "none"},
+        {"limit", "none"},       {"paths", "auto"},         {"tilt", "auto"},
     };
     unsigned *found = user;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
@@ -321,7 +328,7 @@ static void words_are_offered_as_a_file_has_them(void **state)
     (void)state;
     unsigned found = 0;
     assert_true(kiln_reference_visit(rows, count_key, &found));
-    assert_int_equal(found, 6);
+    assert_int_equal(found, 7);
 }
 
 static void a_reference_and_a_schema_follow(void **state)

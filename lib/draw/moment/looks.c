@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "asset/atlas/blackbody.h"
+#include "scene/look_defaults.h"
 #include "shared/exact.h"
 
 /* The temperature of a cell's cool parts divided by the temperature of its hot parts. */
@@ -215,7 +216,9 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
     const struct kiln_look *look = &scene->systems[index].look;
     struct kiln_draw_look made = {
         .derived = kiln_scene_derived(scene, index),
-        .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
+        .flags = {look->blend == KILN_BLEND_ADD,
+                  (look->random_start ? LOOK_RANDOM_START : 0) |
+                      (kiln_look_is_picture(look) ? LOOK_UNMIRRORED : 0),
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
         .form = {look->shape, look->facing, look->point_round,
                  look->shape == KILN_SHAPE_LINE ? look->line_to == KILN_LINE_PREVIOUS

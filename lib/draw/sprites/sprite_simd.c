@@ -49,6 +49,8 @@ static void turn_billboards(struct sprite_lanes *p)
     p->half_length = edge.half_length;
     if (p->look->form.x == 0 && p->look->form.w != 0)
         p->words[WORD_OF(opacity)] *= billboard_dimming(p->half_size, edge.half_length);
+    if ((p->look->flags.y & LOOK_UNMIRRORED) != 0)
+        side = vf_all(1.0f);
     p->plane = billboard_rotated(plane, edge, side);
 }
 

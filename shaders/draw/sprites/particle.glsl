@@ -187,7 +187,8 @@ void make_billboard(uint entry)
     billboard_size size = billboard_size(half_size, edge.half_length, 1.0);
     if (view.clock.w < 1.0 && form.x == 0u) /* a billboard in a picture smaller than the frame */
         size = billboard_widened(size.half_width, size.half_length, pixels_per_m);
-    plane = billboard_rotated(plane, edge, side);
+    bool mirrors = (looks[system].flags.y & LOOK_UNMIRRORED) == 0u;
+    plane = billboard_rotated(plane, edge, mirrors ? side : 1.0);
     right = vec4(plane.right * size.half_width, 0.0);
     up = vec4(plane.up * size.half_length, 0.0);
     half_size = size.half_width;
@@ -201,7 +202,7 @@ void make_billboard(uint entry)
     vec4 bloom = look_at(system, KILN_LOOK_BLOOM, life);
     particle.bloom = vec4(bloom.rgb, uintBitsToFloat(texture_cells.w));
 
-    particle.cells = choose_cells(texture_cells, life * cool.w, looks[system].flags.y != 0u,
+    particle.cells = choose_cells(texture_cells, life * cool.w, (looks[system].flags.y & LOOK_RANDOM_START) != 0u,
                                   stream, 2.0 * pixels_per_m * vec2(half_size, size.half_length));
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
