@@ -408,8 +408,11 @@ PUBLIC_TABLE(kiln_options_backdrop) = {
     GROUP(LOOK, "sky", sky, "The sky: a gradient or an image."),
     SWITCH(IF_PARTICLES_HIT_FLOOR, "floor", floor_rows, floor_enabled, "{}", "An endless plane."),
     GROUP(LOOK, "sun", sun, "The sun, the one light with a shadow."),
-    VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
-          "How fast, per metre of distance, the floor fades into the horizon."),
+    VALUE(
+        LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
+        "How fast, per metre of distance, all that is drawn fades into the colour of the horizon: "
+        "exp(-haze * distance) is left. Light that covers nothing, like fire, is dimmed. "
+        "Transparent pictures have no haze."),
     LIST(MOTION, "objects", objects, object, object_count, "[]", "Objects of the scene."),
     LIST(LOOK, "lights", lights, light, light_count, "[]", "Lights besides the sun."),
     END,

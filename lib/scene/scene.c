@@ -129,6 +129,12 @@ bool kiln_scene_has_smoke(const struct kiln_scene *scene)
     return found;
 }
 
+bool kiln_scene_has_haze(const struct kiln_scene *scene)
+{
+    return !scene->backdrop.transparent &&
+           kiln_scene_value_max(scene, &scene->backdrop.haze) > 0.0f;
+}
+
 uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
 {
     uint32_t count = 0;

@@ -538,7 +538,7 @@ static inline bool kiln_scene_stores_keys(const struct kiln_scene *scene)
 bool kiln_scene_view_stands(const struct kiln_scene *scene);
 
 /* Return whether the sun ever shines, whether particles ever emit light, whether there are lamps or
- * such light, and whether particles are smoke that throws shadows. */
+ * such light, whether particles are smoke that throws shadows, and whether there is ever haze. */
 bool kiln_scene_has_sun(const struct kiln_scene *scene);
 bool kiln_scene_has_firelight(const struct kiln_scene *scene);
 static inline bool kiln_scene_has_lamps(const struct kiln_scene *scene)
@@ -546,6 +546,7 @@ static inline bool kiln_scene_has_lamps(const struct kiln_scene *scene)
     return scene->backdrop.light_count > 0 || kiln_scene_has_firelight(scene);
 }
 bool kiln_scene_has_smoke(const struct kiln_scene *scene);
+bool kiln_scene_has_haze(const struct kiln_scene *scene);
 
 /* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide
  * (points, lines) hide nothing. */

@@ -418,15 +418,6 @@ static void true_read(const struct true_scene *t, uint32_t entry,
     p->moving = dvec_turn(view, dvec_of3(particle_velocity(*record)));
 }
 
-static void true_color(struct true_sprite *s, double const row[KILN_LOOK_ROWS][4])
-{
-    const size_t bytes = sizeof s->hot;
-    memcpy(s->hot, row[KILN_LOOK_HOT], bytes);
-    memcpy(s->cool, row[KILN_LOOK_COOL], bytes);
-    memcpy(s->color, row[KILN_LOOK_COVER], bytes);
-    memcpy(s->bloom, row[KILN_LOOK_BLOOM], bytes);
-}
-
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_sprite *s)
 {
@@ -447,7 +438,7 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
     p.half_size = 0.5 * shape[0] * p.scale;
     p.diameter_px = 2 * p.half_size * pixels_per_m;
     true_turn(t, &p, s);
-    true_color(s, (double const(*)[4])p.row);
+    true_color(t, s, (double const(*)[4])p.row, p.position);
     s->bulge = p.half_size * p.row[KILN_LOOK_BLOOM][3];
     s->distance = sqrt(dvec_dot(s->center, s->center));
     true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
@@ -593,7 +584,8 @@ void true_shade(const struct true_scene *t, const struct true_sprite *s,
                        s->light[3][c] * facing;
         double covering = s->color[c] * fmax(light, 0);
         double emitted = masks ? s->cool[c] + (s->hot[c] - s->cool[c]) * cell[2] : s->hot[c];
-        rgba[c] = (emitted + covering) * (masks ? alpha : cell[c]) * fade;
+        rgba[c] =
+            (emitted + covering) * (masks ? alpha : cell[c]) * fade + s->veil[c] * alpha * fade;
     }
     rgba[3] = alpha * fade;
 }

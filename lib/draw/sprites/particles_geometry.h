@@ -17,7 +17,7 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            struct kiln_error *error);
 void kiln_geometry_destroy(struct kiln_geometry **stage);
 
-#define KILN_GEOMETRY_DEFINES 128 /* bytes of the text of kiln_geometry_defines */
+#define KILN_GEOMETRY_DEFINES 144 /* bytes of the text of kiln_geometry_defines */
 
 /* Writes the "#define" lines of shaders that draw a scene's particles
  * (shaders/draw/sprites/particle.glsl). */
