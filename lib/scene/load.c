@@ -17,6 +17,7 @@
 #include "base/sized.h"
 #include "option/override.h"
 #include "scene/asset_path.h"
+#include "scene/light_notes.h"
 #include "scene/mesh_notes.h"
 #include "scene/parts.h"
 #include "scene/place.h"
@@ -121,6 +122,7 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         !take_hash(scene, reader->error) || !kiln_budget_is_kept(scene->budget, reader->error))
         return false;
     kiln_small_steps_warn(reader, root);
+    kiln_light_notes_warn(reader, root);
     kiln_mesh_notes_warn(reader, root, &params->log);
     return true;
 }
