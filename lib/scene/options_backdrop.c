@@ -8,6 +8,9 @@
 
 #define FILLS struct kiln_object
 
+/* The least size of an object, m. Near the origin, positions are still 10,000 times as fine. */
+#define LEAST_LENGTH 1e-5
+
 /* The options of how particles bounce off an object and slide along it. */
 #define SURFACE_FACTORS                                                                            \
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                      \
@@ -27,7 +30,7 @@
 TABLE(box) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
            "Centre of the box."),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]",
+    VECTOR(MOTION, "size", size, KILN_METRES, LEAST_LENGTH, FAR, TIME, "[1, 1, 1]",
            "Lengths of the edges."),
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
            "[0, 0, 0]",
@@ -41,7 +44,7 @@ TABLE(box) = {
 TABLE(sphere) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
            "Centre of the sphere."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME, "0.5 m",
           "Radius of the sphere."),
     REFLECTANCE,
     COLLIDING,
@@ -53,9 +56,9 @@ TABLE(cylinder) = {
            "Centre of the cylinder."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME, "0.5 m",
           "Radius of the cylinder."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, LEAST_LENGTH, FAR, TIME, "1 m",
           "Height along the axis, from end to end."),
     REFLECTANCE,
     COLLIDING,
@@ -67,9 +70,9 @@ TABLE(capsule) = {
            "Centre of the capsule."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME, "0.5 m",
           "Radius of the side and of the round ends."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, LEAST_LENGTH, FAR, TIME, "1 m",
           "Height along the axis, between the centres of the round ends."),
     REFLECTANCE,
     COLLIDING,
@@ -81,8 +84,9 @@ TABLE(cone) = {
            "Centre of the cone, halfway between its base and its tip."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction from the base to the tip, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the base."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME, "1 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME, "0.5 m",
+          "Radius of the base."),
+    VALUE(MOTION, "height", height, KILN_METRES, LEAST_LENGTH, FAR, TIME, "1 m",
           "Height along the axis, from the base to the tip."),
     REFLECTANCE,
     COLLIDING,
@@ -268,7 +272,7 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
     VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",                  \
            "Position of the light."),                                                              \
         COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),           \
-        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",                      \
+        VALUE(LOOK, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME, "0.2 m",               \
               "Radius of the light. Near the light, it keeps the brightness finite; it softens "   \
               "shadows."),                                                                         \
         BOOLEAN(LOOK, "shadow", shadow, "true",                                                    \
@@ -297,9 +301,9 @@ TABLE(spot) = {
 TABLE(rectangle) = {
     VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",
            "Centre of the rectangle."),
-    VALUE(LOOK, "width", width, KILN_METRES, 0.01, 1000, TIME, "1 m",
+    VALUE(LOOK, "width", width, KILN_METRES, LEAST_LENGTH, 1000, TIME, "1 m",
           "Length of the edges across `up`."),
-    VALUE(LOOK, "height", height, KILN_METRES, 0.01, 1000, TIME, "1 m",
+    VALUE(LOOK, "height", height, KILN_METRES, LEAST_LENGTH, 1000, TIME, "1 m",
           "Length of the edges along `up`."),
     LIGHT_DIRECTION,
     VECTOR(LOOK, "up", up, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
@@ -363,7 +367,8 @@ TABLE(floor_rows) = {
           "Edge length of lighter and darker squares; 0 is a plain floor."),
     {ROW(LOOK, "image", picture, floor_image, "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
-    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
+    VALUE(LOOK, "tile", floor_tile, KILN_METRES, LEAST_LENGTH, FAR, TIME, "1 m",
+          "Width of the picture."),
     VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
           "Strength of the floor's reflection; 1 reflects as water does. The floor mirrors sky, "
           "lights and objects except meshes. Of particles it mirrors only the light that they shed "
