@@ -225,8 +225,8 @@ TABLE(terrain) = {
             "Seed of the noise. Another seed gives another landscape."),
     REFLECTANCE,
     BOOLEAN(MOTION, "collide", collide, "true",
-            "Particles of systems that collide bounce off it. It is solid downwards, with walls "
-            "below its edges."),
+            "Particles of systems that collide bounce off it. It is solid downwards without an "
+            "end, with walls below its edges; those that are beside it fall past it."),
     SURFACE_FACTORS,
     END,
 };
@@ -258,7 +258,8 @@ KINDS(object_kinds) = {
     {.name = "terrain",
      .value = KILN_OBJECT_TERRAIN,
      MEMBERS(terrain),
-     .help = "A landscape from a picture or from noise (UberFlow 2004, 4.6)."},
+     .help = "A landscape from a picture or from noise (UberFlow 2004, 4.6). It ends at its edges, "
+             "where walls are drawn down to its lowest height."},
     {.name = NULL},
 };
 
