@@ -21,10 +21,11 @@ static double mean_light(const char *name)
     float *pixels = malloc((size_t)EDGE * EDGE * 4 * sizeof *pixels);
     struct kiln_builtin_scratch *scratch = kiln_builtin_scratch_create();
     struct kiln_builtin builtin = {0};
-    enum kiln_simd simd;
+    enum kiln_simd simd = KILN_SIMD_PLAIN;
     struct kiln_error error = {0};
     double sum = 0;
-    assert_true(pixels && scratch && kiln_simd_choose(&simd, &error));
+    assert_true(pixels && scratch);
+    assert_true(kiln_simd_choose(&simd, &error));
     assert_true(kiln_builtin_open(&builtin, name, CELLS, simd));
     for (uint32_t cell = 0; cell < CELLS; cell++) {
         kiln_builtin_cell(&builtin, cell, EDGE, scratch, pixels);
