@@ -129,6 +129,10 @@ static int run(const struct arguments *arguments)
             /* Either standard output failed, which report_finish reports, or memory was short. */
             int failure = ferror(stdout) ? KILN_IO : report_no_memory();
             code = code ? code : failure;
+        } else if (!quiet && !hash) {
+            struct kiln_scene_info info = kiln_scene_info_empty();
+            kiln_scene_get_info(scene, &info);
+            overrides_print_length(arguments, "# ", path, &info);
         }
         kiln_scene_destroy(&scene);
     }

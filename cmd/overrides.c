@@ -55,6 +55,33 @@ void overrides_free(struct overrides *overrides)
     *overrides = (struct overrides){0};
 }
 
+/* Returns whether a use of an option changes a key of the scene. */
+static bool changes(const struct option_use *use, const char *key)
+{
+    const size_t length = strlen(key);
+    if (use->option->scene_key)
+        return strcmp(use->option->scene_key, key) == 0;
+    return strcmp(use->option->name, "set") == 0 && strncmp(use->text, key, length) == 0 &&
+           use->text[length] == '=';
+}
+
+void overrides_print_length(const struct arguments *arguments, const char *before, const char *path,
+                            const struct kiln_scene_info *info)
+{
+    bool rate = false, frames = false;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        rate = rate || changes(&arguments->uses[i], "output.fps");
+        frames = frames || changes(&arguments->uses[i], "output.frames");
+    }
+    if (!rate || frames)
+        return;
+    const double rate_hz = (double)info->fps_num / (double)info->fps_den;
+    printf("%s", before);
+    print_name(path);
+    printf(": %" PRIu32 " frame%s at %.6g a second last %.4g s\n", info->frames,
+           info->frames == 1 ? "" : "s", rate_hz, (double)info->frames / rate_hz);
+}
+
 struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
                                                 const struct arguments *arguments)
 {

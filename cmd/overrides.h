@@ -46,6 +46,11 @@ struct overrides {
 bool overrides_create(struct overrides *overrides, const struct arguments *arguments);
 void overrides_free(struct overrides *overrides);
 
+/* Prints how long a clip is, as a line behind `before`, if the command line changes the rate of its
+ * frames and not their number: the scene's clip is of another length then. path: of the scene. */
+void overrides_print_length(const struct arguments *arguments, const char *before, const char *path,
+                            const struct kiln_scene_info *info);
+
 /* Returns the parameters to load the scenes of a command line. They point into both arguments. */
 struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
                                                 const struct arguments *arguments);

@@ -470,6 +470,8 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
     const bool keep_going = render->list.keep_going;
     for (size_t i = 0; i < render->list.count && (code == 0 || keep_going); i++) {
         const struct job *job = &render->list.jobs[i];
+        if (!job->code && !render->quiet)
+            overrides_print_length(arguments, "", job->path, &job->info);
         const int ended = job->code ? job->code : run_job(render, device, job);
         code = ended > code ? ended : code;
         if (is_end_of_all(ended))

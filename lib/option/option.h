@@ -132,8 +132,8 @@ struct kiln_option {
      * systems, another one. */
     unsigned draws;
     const char *const *choices; /* words in the order of the enum, NULL at the end */
-    /* a word that stands for 0/1 (rational) or for KILN_VALUE_BY_WORD (value, whose min is at least
-     * 0) */
+    /* a word that stands for 0/1 (rational), KILN_VALUE_BY_WORD (value, whose min is at least 0),
+     * KILN_RANGE_BY_WORD (range) or KILN_INTEGER_BY_WORD (integer, whose max is below it) */
     const char *special_word;
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;

@@ -57,14 +57,21 @@ const struct kiln_option_type kiln_type_boolean = {
 static bool read_integer(struct kiln_reader *reader, const struct kiln_option *option,
                          const struct kiln_node *node, void *field)
 {
+    if (option->special_word && kiln_node_is(node, option->special_word)) {
+        *(uint32_t *)field = KILN_INTEGER_BY_WORD;
+        return true;
+    }
     return kiln_read_whole(reader, option, node, field);
 }
 
 static void print_integer(struct kiln_printer *printer, const struct kiln_option *option,
                           const void *field)
 {
-    (void)option;
-    kiln_text_add(&printer->text, " %" PRIu32 "\n", *(const uint32_t *)field);
+    const uint32_t number = *(const uint32_t *)field;
+    if (option->special_word && number == KILN_INTEGER_BY_WORD)
+        kiln_text_add(&printer->text, " %s\n", option->special_word);
+    else
+        kiln_text_add(&printer->text, " %" PRIu32 "\n", number);
 }
 
 static void describe_integer(const struct kiln_option *option, struct kiln_text *out)
@@ -73,12 +80,17 @@ static void describe_integer(const struct kiln_option *option, struct kiln_text 
         kiln_text_add(out, "the number %.0f", option->min);
     else
         kiln_text_add(out, "a whole number from %.0f to %.0f", option->min, option->max);
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 static void schema_integer(const struct kiln_option *option, struct kiln_text *out)
 {
-    kiln_text_add(out, "{\"type\": \"integer\", \"minimum\": %.0f, \"maximum\": %.0f}", option->min,
-                  option->max);
+    const char *word = option->special_word;
+    kiln_text_add(out, "%s{\"type\": \"integer\", \"minimum\": %.0f, \"maximum\": %.0f}",
+                  word ? "{\"anyOf\": [" : "", option->min, option->max);
+    if (word)
+        kiln_text_add(out, ", {\"const\": \"%s\"}]}", word);
 }
 
 const struct kiln_option_type kiln_type_integer = {

@@ -179,6 +179,10 @@ static bool read_range(struct kiln_reader *reader, const struct kiln_option *opt
                        const struct kiln_node *node, void *field)
 {
     struct kiln_range *range = field;
+    if (option->special_word && kiln_node_is(node, option->special_word)) {
+        *range = KILN_RANGE_BY_WORD;
+        return true;
+    }
     if (node->kind != KILN_NODE_LIST) {
         if (!kiln_read_animated(reader, option, node, &range->min, 1))
             return false;
@@ -189,6 +193,7 @@ static bool read_range(struct kiln_reader *reader, const struct kiln_option *opt
         return kiln_reader_mismatch(reader, option, node);
     struct kiln_option end = *option;
     end.clocks &= KILN_ALLOW_TIME | KILN_ALLOW_LIFE;
+    end.special_word = NULL; /* it stands for the range, never for one of its ends */
     if (!kiln_read_animated(reader, &end, node->first, &range->min, 1) ||
         !kiln_read_animated(reader, &end, node->first->next, &range->max, 1))
         return false;
@@ -204,8 +209,14 @@ static void print_range(struct kiln_printer *printer, const struct kiln_option *
                         const void *field)
 {
     const struct kiln_range *range = field;
+    if (option->special_word && kiln_range_is_by_word(range)) {
+        kiln_text_add(&printer->text, " %s\n", option->special_word);
+        return;
+    }
     if (memcmp(&range->min, &range->max, sizeof range->min) == 0) {
-        print_value(printer, option, &range->min);
+        kiln_text_add(&printer->text, " ");
+        kiln_print_value(printer, option, &range->min);
+        kiln_text_add(&printer->text, "\n");
         return;
     }
     kiln_text_add(&printer->text, " [");
@@ -219,17 +230,24 @@ static void describe_range(const struct kiln_option *option, struct kiln_text *o
 {
     kiln_text_add(out, "[min, max] or one number,");
     kiln_option_describe_limits(option, out);
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 static void schema_range(const struct kiln_option *option, struct kiln_text *out)
 {
     struct kiln_text value = {0};
-    schema_value(option, &value);
+    struct kiln_option number = *option;
+    number.special_word = NULL; /* no end of a range has it */
+    schema_value(&number, &value);
     const char *item = value.data ? value.data : "";
     kiln_text_add(out,
                   "{\"anyOf\": [%s, {\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, "
-                  "\"items\": %s}]}",
+                  "\"items\": %s}",
                   item, item);
+    if (option->special_word)
+        kiln_text_add(out, ", {\"const\": \"%s\"}", option->special_word);
+    kiln_text_add(out, "]}");
     out->failed |= value.failed;
     kiln_text_free(&value);
 }

@@ -17,7 +17,9 @@
 #include "base/sized.h"
 #include "option/override.h"
 #include "scene/asset_path.h"
+#include "scene/light_notes.h"
 #include "scene/mesh_notes.h"
+#include "scene/parts.h"
 #include "scene/place.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
@@ -65,7 +67,7 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
-    bool ok = kiln_print_scene(scene, 0, &text), read = true;
+    bool ok = kiln_print_scene(scene, KILN_PART_HASHED, &text), read = true;
     for (uint32_t i = 0; ok && read && i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
         for (uint32_t k = 0; read && k < look->atlas_count; k++)
@@ -120,6 +122,7 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         !take_hash(scene, reader->error) || !kiln_budget_is_kept(scene->budget, reader->error))
         return false;
     kiln_small_steps_warn(reader, root);
+    kiln_light_notes_warn(reader, root);
     kiln_mesh_notes_warn(reader, root, &params->log);
     return true;
 }

@@ -8,6 +8,9 @@
 
 #define FILLS struct kiln_object
 
+/* The least size of an object, m. Near the origin, positions are still 10,000 times as fine. */
+#define LEAST_LENGTH 1e-5
+
 /* The options of how particles bounce off an object and slide along it. */
 #define SURFACE_FACTORS                                                                            \
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME(8), "1",                   \
@@ -27,7 +30,7 @@
 TABLE(box) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(11), "[0, 0.5, 0]",
            "Centre of the box."),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME(12), "[1, 1, 1]",
+    VECTOR(MOTION, "size", size, KILN_METRES, LEAST_LENGTH, FAR, TIME(12), "[1, 1, 1]",
            "Lengths of the edges."),
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME(13),
            "[0, 0, 0]",
@@ -41,7 +44,7 @@ TABLE(box) = {
 TABLE(sphere) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(14), "[0, 0.5, 0]",
            "Centre of the sphere."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(15), "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME(15), "0.5 m",
           "Radius of the sphere."),
     REFLECTANCE,
     COLLIDING,
@@ -53,9 +56,9 @@ TABLE(cylinder) = {
            "Centre of the cylinder."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(17), "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(18), "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME(18), "0.5 m",
           "Radius of the cylinder."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(19), "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, LEAST_LENGTH, FAR, TIME(19), "1 m",
           "Height along the axis, from end to end."),
     REFLECTANCE,
     COLLIDING,
@@ -67,9 +70,9 @@ TABLE(capsule) = {
            "Centre of the capsule."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(21), "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(22), "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME(22), "0.5 m",
           "Radius of the side and of the round ends."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(23), "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, LEAST_LENGTH, FAR, TIME(23), "1 m",
           "Height along the axis, between the centres of the round ends."),
     REFLECTANCE,
     COLLIDING,
@@ -81,9 +84,9 @@ TABLE(cone) = {
            "Centre of the cone, halfway between its base and its tip."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(25), "[0, 1, 0]",
            "Direction from the base to the tip, of any length but 0."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(26), "0.5 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME(26), "0.5 m",
           "Radius of the base."),
-    VALUE(MOTION, "height", height, KILN_METRES, 0.001, FAR, TIME(27), "1 m",
+    VALUE(MOTION, "height", height, KILN_METRES, LEAST_LENGTH, FAR, TIME(27), "1 m",
           "Height along the axis, from the base to the tip."),
     REFLECTANCE,
     COLLIDING,
@@ -222,8 +225,8 @@ TABLE(terrain) = {
             "Seed of the noise. Another seed gives another landscape."),
     REFLECTANCE,
     BOOLEAN(MOTION, "collide", collide, "true",
-            "Particles of systems that collide bounce off it. It is solid downwards, with walls "
-            "below its edges."),
+            "Particles of systems that collide bounce off it. It is solid downwards without an "
+            "end, with walls below its edges; those that are beside it fall past it."),
     SURFACE_FACTORS,
     END,
 };
@@ -255,7 +258,8 @@ KINDS(object_kinds) = {
     {.name = "terrain",
      .value = KILN_OBJECT_TERRAIN,
      MEMBERS(terrain),
-     .help = "A landscape from a picture or from noise (UberFlow 2004, 4.6)."},
+     .help = "A landscape from a picture or from noise (UberFlow 2004, 4.6). It ends at its edges, "
+             "where walls are drawn down to its lowest height."},
     {.name = NULL},
 };
 
@@ -269,7 +273,7 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
     VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME(34), "[0, 2, 0]",              \
            "Position of the light."),                                                              \
         COLOR(LOOK, "color", color, 1000000, TIME(35), "1", "Light that arrives 1 m away."),       \
-        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME(36), "0.2 m",                  \
+        VALUE(LOOK, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME(36), "0.2 m",           \
               "Radius of the light. Near the light, it keeps the brightness finite; it softens "   \
               "shadows."),                                                                         \
         BOOLEAN(LOOK, "shadow", shadow, "true",                                                    \
@@ -298,9 +302,9 @@ TABLE(spot) = {
 TABLE(rectangle) = {
     VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME(40), "[0, 2, 0]",
            "Centre of the rectangle."),
-    VALUE(LOOK, "width", width, KILN_METRES, 0.01, 1000, TIME(41), "1 m",
+    VALUE(LOOK, "width", width, KILN_METRES, LEAST_LENGTH, 1000, TIME(41), "1 m",
           "Length of the edges across `up`."),
-    VALUE(LOOK, "height", height, KILN_METRES, 0.01, 1000, TIME(42), "1 m",
+    VALUE(LOOK, "height", height, KILN_METRES, LEAST_LENGTH, 1000, TIME(42), "1 m",
           "Length of the edges along `up`."),
     LIGHT_DIRECTION,
     VECTOR(LOOK, "up", up, KILN_PLAIN, -FAR, FAR, TIME(43), "[0, 1, 0]",
@@ -365,7 +369,7 @@ TABLE(floor_rows) = {
           "Edge length of lighter and darker squares; 0 is a plain floor."),
     {ROW(LOOK, "image", picture, floor_image, "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
-    VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME(52), "1 m",
+    VALUE(LOOK, "tile", floor_tile, KILN_METRES, LEAST_LENGTH, FAR, TIME(52), "1 m",
           "Width of the picture."),
     VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME(53), "0",
           "Strength of the floor's reflection; 1 reflects as water does. The floor mirrors sky, "
@@ -411,8 +415,11 @@ PUBLIC_TABLE(kiln_options_backdrop) = {
     GROUP(LOOK, "sky", sky, "The sky: a gradient or an image."),
     SWITCH(IF_PARTICLES_HIT_FLOOR, "floor", floor_rows, floor_enabled, "{}", "An endless plane."),
     GROUP(LOOK, "sun", sun, "The sun, the one light with a shadow."),
-    VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME(65), "0.02",
-          "How fast, per metre of distance, the floor fades into the horizon."),
+    VALUE(
+        LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME(65), "0.02",
+        "How fast, per metre of distance, all that is drawn fades into the colour of the horizon: "
+        "exp(-haze * distance) is left. Light that covers nothing, like fire, is dimmed. "
+        "Transparent pictures have no haze."),
     LIST(MOTION, "objects", objects, object, object_count, "[]", "Objects of the scene."),
     LIST(LOOK, "lights", lights, light, light_count, "[]", "Lights besides the sun."),
     END,

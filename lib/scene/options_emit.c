@@ -259,6 +259,12 @@ ITEM_OF_KINDS(interaction, kiln_interaction_kinds, kind, .name = "interaction");
 
 PUBLIC_TABLE(kiln_options_system) = {
     BOOLEAN(MOTION, "enabled", enabled, "true", "A system that is not enabled has no particles."),
+    {ROW(IF_SEED_IS_PINNED, "seed", integer, seed, "auto",
+         "Number of the system in all that is drawn at random for its particles. `auto` is its "
+         "place: 0 for the first system of the scene, also where systems before it are not "
+         "enabled. With a number of its own, a system stays as it is when others are put before "
+         "it. Two systems of one number draw the same."),
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_SYSTEM_SEED), .special_word = "auto"},
     GROUP_AT(MOTION, "emit", emit, emit_options, "How particles are born."),
     LIST(MOTION, "forces", forces, force, force_count, "[]",
          "Forces that accelerate the particles. Their accelerations are added up."),

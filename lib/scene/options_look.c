@@ -114,7 +114,9 @@ TABLE(fade) = {
 
 PUBLIC_TABLE(kiln_options_look) = {
     {ROW(LOOK, "atlas", assets, atlas, "\"builtin:smoke\"",
-         "The texture, whose cells play in order. Of several textures, each particle gets one."),
+         "The texture, whose cells play in order. Of several textures, each particle gets one. "
+         "Cells of a file keep their proportions: the longer edge of one is as long as the "
+         "billboard's, and it lies in the middle of the other."),
      COUNTED(atlas, atlas_count)},
     {ROW(LOOK, "cells", pair, cells, "[8, 8]",
          "Columns and rows of cells in an atlas file. Their product is the number of cells: a "
@@ -167,10 +169,13 @@ PUBLIC_TABLE(kiln_options_look) = {
     BOOLEAN(LOOK, "stretch_dims", stretch_dims, "false",
             "true spreads the light of a billboard over its stretch, as the shutter of a camera "
             "does: it is fainter by the factor by which it is longer."),
-    RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), DRAWN(32),
-          "[0 deg, 360 deg]",
-          "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
-          "it."),
+    {ROW(LOOK, "rotation", range, rotation, "auto",
+         "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
+         "it. `auto` is any angle, but 0 deg for billboards whose atlas are files of one cell "
+         "(`cells: [1, 1]`), such as a logo: they are upright. These are not mirrored, either, as "
+         "half of all other particles are."),
+     LIMITS(KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600)), .clocks = DRAWN(32),
+     .special_word = "auto"},
     RANGE(
         LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), SUMMED(33), "0 deg/s",
         "Angular speed of a particle. Speed and direction are chosen at random for each particle."),
@@ -183,9 +188,13 @@ PUBLIC_TABLE(kiln_options_look) = {
     VALUE(LOOK, "opacity", opacity, KILN_FRACTION, 0, 1, DRAWN(36), "1",
           "Factor on the alpha of the atlas."),
     VALUE(LOOK, "temperature", temperature, KILN_KELVIN, 0, 20000, DRAWN(37), "0 K",
-          "Temperature of the black body whose colour the particle glows with; 0 is no glow."),
+          "Temperature of the black body whose colour the particle glows with; 0 is no glow. It "
+          "sets the brightness as well: (temperature / 1900 K)^4 times `intensity`, which is 0.16 "
+          "at 1200 K, 0.39 at 1500 K, 1 at 1900 K, 3 at 2500 K and 137 at 6500 K. Cool parts of a "
+          "cell have 0.72 of the temperature, so 0.27 of the brightness."),
     VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, DRAWN(38), "1",
-          "Factor on emitted light."),
+          "Factor on emitted light: how bright the particle is at 1900 K, or, of blend add without "
+          "a temperature, a factor on its colour."),
     GROUP(LOOK, "fade", fade, "Opacity at birth and death."),
     VALUE(LOOK, "soft", soft, KILN_PER_METRE, 0, 1000, DRAWN(39), "2",
           "How fast a particle fades where it nears a surface. A larger value fades over a shorter "
@@ -201,14 +210,18 @@ PUBLIC_TABLE(kiln_options_look) = {
           "Distance beyond the camera's near plane over which a particle fades in."),
     COLOR(LOOK, "bloom", bloom, 100, DRAWN(42), "0",
           "Factor on the colour that goes to the bloom."),
-    VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, DRAWN(43), "0",
-          "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights."),
+    {ROW(LOOK, "lit", value, lit, "auto",
+         "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights. `auto` "
+         "is 1 for spheres and meshes, and 0 for all other shapes."),
+     LIMITS(KILN_FRACTION, 0, 1), .clocks = DRAWN(43), .special_word = "auto"},
     VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME(44), "1",
           "How strongly a particle of blend alpha shadows itself and what lies behind it as seen "
           "from a light: a factor on the light that it absorbs."),
     COLOR(LOOK, "light", light, 1000000, TIME(45), "0",
-          "Factor on the light that a glowing particle sheds on backdrop and smoke. 1 is as much "
-          "light as the particle emits."),
+          "Factor on the light that a glowing particle sheds on backdrop and smoke. With 1, it is "
+          "that of a quarter of its square, as bright as the mean of its hottest and coolest "
+          "parts: 2 to 13 times what the atlases of fire show. N particles then make a white "
+          "surface 1 m away light * N * brightness * opacity * size^2 / (4 pi) bright."),
     INTEGER(LOOK, "lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
             "Number of moving lights that shed the light of the system, grouped by the ages of its "
             "particles. All systems of a scene have up to 16 together."),

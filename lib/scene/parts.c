@@ -12,7 +12,10 @@
 #include "scene/parts.h"
 
 /* A row that decides the motion also decides the view, so no row belongs to the motion alone. */
-enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_VIEW };
+enum {
+    NEITHER = KILN_PART_HASHED,
+    BOTH = KILN_PART_HASHED | KILN_PART_MOTION | KILN_PART_VIEW,
+};
 
 unsigned kiln_row_look(const void *scene, const void *base)
 {
@@ -25,7 +28,7 @@ unsigned kiln_row_view(const void *scene, const void *base)
 {
     (void)scene;
     (void)base;
-    return KILN_PART_VIEW;
+    return KILN_PART_HASHED | KILN_PART_VIEW;
 }
 
 unsigned kiln_row_motion(const void *scene, const void *base)
@@ -85,4 +88,11 @@ unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop)
 {
     return kiln_backdrop_floor_collides(backdrop) && any_collides(scene) ? BOTH : NEITHER;
+}
+
+unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system)
+{
+    const struct kiln_scene *in = scene;
+    const struct kiln_system *s = system;
+    return s->seed != (uint32_t)(s - in->systems) ? BOTH : 0;
 }

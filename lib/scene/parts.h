@@ -8,6 +8,9 @@
 enum kiln_scene_part {
     KILN_PART_MOTION = 1, /* options that decide the state of the particles */
     KILN_PART_VIEW = 2,   /* options that decide where the camera sees particles in each moment */
+    /* options of which the hash of the whole scene is taken: all but a seed of a system that is the
+     * one it would have anyway, so that scenes from before there were such seeds keep their hash */
+    KILN_PART_HASHED = 4,
 };
 
 /* Functions for `parts` of struct kiln_option. */
@@ -15,13 +18,16 @@ unsigned kiln_row_look(const void *scene, const void *base);
 unsigned kiln_row_view(const void *scene, const void *base);
 unsigned kiln_row_motion(const void *scene, const void *base);
 
-/* Return the bits of all parts under a condition, and otherwise 0; base is a struct kiln_look,
- * kiln_object or kiln_backdrop. Particles hit an object or the floor when they collide with it or
- * paint it. */
+/* Return the bits of all parts under a condition, and otherwise that of the hash; base is a struct
+ * kiln_look, kiln_object or kiln_backdrop. Particles hit an object or the floor when they collide
+ * with it or paint it. */
 unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look);
 unsigned kiln_row_if_it_paints(const void *scene, const void *look);
 unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object);
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
+
+/* Returns the bits of all parts if a system's seed is not its place, and otherwise 0. */
+unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 
 #define LOOK                     kiln_row_look
 #define VIEW                     kiln_row_view
@@ -30,5 +36,6 @@ unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop
 #define IF_IT_PAINTS             kiln_row_if_it_paints
 #define IF_PARTICLES_HIT_OBJECT  kiln_row_if_particles_hit_object
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
+#define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned
 
 #endif

@@ -1,5 +1,6 @@
 /* This file prints a scene as a scene file, with no option left to its default. `kiln check` prints
- * it, and the scene's hash is taken of it. It names no path but those of assets, below their root.
+ * it, and the scene's hash is taken of most of it. It names no path but those of assets, below
+ * their root.
  */
 #include "scene/options.h"
 

@@ -39,14 +39,14 @@ float kiln_scene_system_value(const struct kiln_scene *scene, uint32_t system,
                               const struct kiln_value *value, float time_s)
 {
     return value_at(scene->keys, *value,
-                    value_clocks_at(time_s, random_system_key(scene->seed, system)));
+                    value_clocks_at(time_s, kiln_scene_derived(scene, system).random_key));
 }
 
 float3 kiln_scene_system_value3(const struct kiln_scene *scene, uint32_t system,
                                 const struct kiln_value3 *value, float time_s)
 {
     return value3_at(scene->keys, *value,
-                     value_clocks_at(time_s, random_system_key(scene->seed, system)));
+                     value_clocks_at(time_s, kiln_scene_derived(scene, system).random_key));
 }
 
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
@@ -126,6 +126,12 @@ bool kiln_scene_has_smoke(const struct kiln_scene *scene)
                  kiln_scene_value_max(scene, &system->look.shadow) > 0.0f;
     }
     return found;
+}
+
+bool kiln_scene_has_haze(const struct kiln_scene *scene)
+{
+    return !scene->backdrop.transparent &&
+           kiln_scene_value_max(scene, &scene->backdrop.haze) > 0.0f;
 }
 
 uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
@@ -230,10 +236,11 @@ void kiln_scene_destroy(struct kiln_scene **scene)
 
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system)
 {
-    return (struct kiln_derived_params){.random_key = random_system_key(scene->seed, system),
-                                        .warmup_steps = scene->warmup_steps,
-                                        .dt_s = scene->dt_s,
-                                        .life = scene->systems[system].emit.life};
+    return (struct kiln_derived_params){
+        .random_key = random_system_key(scene->seed, scene->systems[system].seed),
+        .warmup_steps = scene->warmup_steps,
+        .dt_s = scene->dt_s,
+        .life = scene->systems[system].emit.life};
 }
 
 const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *scene,

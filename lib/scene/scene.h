@@ -14,6 +14,7 @@
 #include "kiln_program.h"
 #include "option/values.h"
 #include "particles/births.h"
+#include "scene/camera.h"
 #include "scene/force.h"
 #include "scene/interaction.h"
 #include "scene/pattern.h"
@@ -256,9 +257,13 @@ static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 
 /* ---- systems --------------------------------------------------------------------------------- */
 
+/* The largest number of a system: the key of the next one would be that of system 0 (random.h). */
+#define KILN_MAX_SYSTEM_SEED (UINT32_MAX - 1)
+
 struct kiln_system {
     const char *name;
     bool enabled;
+    uint32_t seed; /* number of the system in shared/random.h: its place, if the scene has none */
     struct kiln_emitter emit;
     struct kiln_force forces[KILN_MAX_FORCES];
     uint32_t force_count;
@@ -409,18 +414,6 @@ struct kiln_backdrop {
     uint32_t light_count;
 };
 
-struct kiln_camera {
-    struct kiln_value3 position, target; /* m */
-    struct kiln_value fov;               /* rad, vertical */
-    struct kiln_value roll;              /* rad */
-    struct kiln_value near_plane;        /* m */
-    struct kiln_value aperture;          /* m: diameter of the lens; 0: a pinhole */
-    struct kiln_value focus;             /* m; KILN_VALUE_BY_WORD: the target's distance */
-    uint32_t shutter_samples;            /* moments of a frame that are averaged */
-    double shutter_angle;                /* rad; with a full turn, the shutter is always open */
-    double shutter_phase;                /* rad from the frame's own time to the first moment */
-};
-
 /* Returns whether particles collide with the floor: it is visible and collides. */
 static inline bool kiln_backdrop_floor_collides(const struct kiln_backdrop *backdrop)
 {
@@ -478,7 +471,9 @@ struct kiln_scene {
 
     float4 *keys; /* keys: x, y, slope, integral from 0 */
     uint32_t key_count;
-    char hash[65]; /* SHA-256, in hex, of the text of kiln_scene_print and of the textures */
+    /* SHA-256, in hex, of the rows of KILN_PART_HASHED (scene/parts.h), as they are printed, and of
+     * the textures */
+    char hash[65];
 };
 
 /* Claims the files that the scene was read from as read; errors as of kiln_claims_read. */
@@ -537,7 +532,7 @@ static inline bool kiln_scene_stores_keys(const struct kiln_scene *scene)
 bool kiln_scene_view_stands(const struct kiln_scene *scene);
 
 /* Return whether the sun ever shines, whether particles ever emit light, whether there are lamps or
- * such light, and whether particles are smoke that throws shadows. */
+ * such light, whether particles are smoke that throws shadows, and whether there is ever haze. */
 bool kiln_scene_has_sun(const struct kiln_scene *scene);
 bool kiln_scene_has_firelight(const struct kiln_scene *scene);
 static inline bool kiln_scene_has_lamps(const struct kiln_scene *scene)
@@ -545,6 +540,7 @@ static inline bool kiln_scene_has_lamps(const struct kiln_scene *scene)
     return scene->backdrop.light_count > 0 || kiln_scene_has_firelight(scene);
 }
 bool kiln_scene_has_smoke(const struct kiln_scene *scene);
+bool kiln_scene_has_haze(const struct kiln_scene *scene);
 
 /* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide
  * (points, lines) hide nothing. */

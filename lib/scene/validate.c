@@ -12,6 +12,7 @@
 #include "scene/asset_path.h"
 #include "scene/family.h"
 #include "scene/instant.h"
+#include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
@@ -76,6 +77,30 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 }
 
 /* ---- systems -------------------------------------------------------------------------------- */
+
+/* Gives each system without a seed its place as its number, and warns where another system has
+ * asked for that number. Two systems that both ask for one number are meant to draw alike. */
+static void settle_seeds(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    bool pinned[KILN_MAX_SYSTEMS];
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        pinned[i] = scene->systems[i].seed != KILN_INTEGER_BY_WORD;
+        scene->systems[i].seed = pinned[i] ? scene->systems[i].seed : i;
+    }
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        for (uint32_t k = 0; k < scene->system_count && !pinned[i]; k++) {
+            const struct kiln_system *own = &scene->systems[i], *other = &scene->systems[k];
+            char path[64];
+            snprintf(path, sizeof path, "systems.%s", own->name);
+            if (pinned[k] && other->seed == own->seed && own->enabled && other->enabled)
+                kiln_reader_warn_at(reader, root, path,
+                                    "its place is %u, which is also the seed of systems.%s, so "
+                                    "both draw the same numbers; a seed of its own sets it apart",
+                                    own->seed, other->name);
+        }
+    }
+}
 
 /* Bounds the births of a system over the whole run. */
 static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uint32_t index)
@@ -312,6 +337,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         const struct kiln_emitter *emit = &system->emit;
         const struct kiln_value3 *direction = &emit->direction;
         char path[128];
+        kiln_look_settle(&system->look);
         snprintf(path, sizeof path, "systems.%s.emit.from.%s.direction", system->name,
                  shape_name(emit));
         if (!emit->outward &&
@@ -498,6 +524,7 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
 
 bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
 {
+    settle_seeds(reader, root);
     return settle_clock(reader, root) && check_camera(reader, root) &&
            check_backdrop(reader, root) && check_systems(reader, root) &&
            kiln_family_settle(reader, root) && settle_capacity(reader, root) &&

@@ -106,7 +106,7 @@ REAL_FN truth billboard_shows_strip(real width, real length)
 }
 
 /* Returns -1 for a billboard that spins backwards, or 1. Half of the particles spin backwards, and
- * are mirrored as well. unit: random, 0 to 1. */
+ * are mirrored as well, unless they are LOOK_UNMIRRORED. unit: random, 0 to 1. */
 REAL_FN real billboard_side(real unit)
 {
     return real_select(unit < 0.5f, real_all(-1.0f), real_all(1.0f));

@@ -143,11 +143,21 @@ FN uint collide_nearest_face(S(collide_box) box, float3 p)
     return face;
 }
 
-/* Returns the coordinate just outside of a face: by 0.06 mm, or by two units in the last place
- * where these are larger. */
-FN float collide_beside(float at, bool upper)
+/* Returns how far outside of a surface a particle is put, without the rounding of its place:
+ * 0.06 mm, or a sixteenth of the size of what has the surface, if that is less, m. */
+FN float collide_least_gap(float size)
 {
-    EXACT float gap = 6.103515625e-5f + exact_abs(at) * 2.384185791015625e-7f;
+    EXACT float part = size * 0.0625f;
+    EXACT float gap = exact_min(part, 6.103515625e-5f);
+    return gap;
+}
+
+/* Returns the coordinate just outside of a face: by the least gap, or by two units in the last
+ * place where these are larger. size: of the box from this face to the other one, m. */
+FN float collide_beside(float at, bool upper, float size)
+{
+    EXACT float least = collide_least_gap(size);
+    EXACT float gap = least + exact_abs(at) * 2.384185791015625e-7f;
     EXACT float y = upper ? at + gap : at - gap;
     return y;
 }
@@ -156,8 +166,11 @@ FN float3 collide_put_beside(S(collide_box) box, uint face, float3 p)
 {
     uint axis = face >> 1u;
     bool upper = (face & 1u) != 0u;
-    EXACT float at = upper ? collide_component(box.max, axis) : collide_component(box.min, axis);
-    EXACT float beside = collide_beside(at, upper);
+    EXACT float low = collide_component(box.min, axis);
+    EXACT float high = collide_component(box.max, axis);
+    EXACT float at = upper ? high : low;
+    EXACT float size = high - low;
+    EXACT float beside = collide_beside(at, upper, size);
     EXACT float3 y = collide_with_component(p, axis, beside);
     return y;
 }

@@ -159,7 +159,12 @@ FN float collide_oriented_gap(S(collide_frame) frame, float3 q)
     EXACT float y = exact_abs(frame.center.y) + exact_abs(q.y);
     EXACT float z = exact_abs(frame.center.z) + exact_abs(q.z);
     EXACT float reach = x + y + z + frame.radius;
-    EXACT float gap = 6.103515625e-5f + reach * 9.5367431640625e-7f;
+    EXACT float size = frame.radius + frame.extent.x;
+    size = size + frame.extent.y;
+    size = size + frame.extent.z;
+    size = size > 0.0f ? size : 1.0f; /* a plane */
+    EXACT float least = collide_least_gap(size);
+    EXACT float gap = least + reach * 9.5367431640625e-7f;
     return gap;
 }
 

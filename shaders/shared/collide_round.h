@@ -234,7 +234,8 @@ FN float collide_round_gap(S(collide_round) shape)
     EXACT float y = exact_abs(shape.center.y);
     EXACT float z = exact_abs(shape.center.z);
     EXACT float reach = x + y + z + shape.radius + shape.half_height;
-    EXACT float gap = 6.103515625e-5f + reach * 4.76837158203125e-7f;
+    EXACT float least = collide_least_gap(shape.radius);
+    EXACT float gap = least + reach * 4.76837158203125e-7f;
     return gap;
 }
 

@@ -164,6 +164,9 @@ struct kiln_draw_light {
 /* The most lights of a picture: lamps of the scene, and those of fire. */
 #define KILN_MOST_LAMPS (KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS)
 
+/* The directions in which the haze of a sky that is a picture has colours of their own. */
+#define KILN_HAZE_PARTS 32
+
 /* Sky, floor, sun and lights. */
 struct kiln_draw_backdrop {
     float4 sky_top;       /* w: brightness of the sun's disc, in parts of its colour */
@@ -172,11 +175,13 @@ struct kiln_draw_backdrop {
     float4 floor_params;  /* 1 if there is a floor; edge of its squares, m; haze, 1/m; sky_glow */
     float4 sun_direction; /* unit, towards the sun; w: radius of its disc: sky_disc */
     float4 sun_color;     /* irradiance; w: 1 if each particle has a value of shade, or 0 */
-    /* unused; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
+    /* 1 if the haze has the colours below, or 0 if it has that of sky_horizon; lights; 1 if the
+     * background is transparent; 1 if there is smoke in the grids */
     uint4 counts;
     S(kiln_draw_light) lights[KILN_MOST_LAMPS];
     float4 sun_to_grid[3]; /* rows: world positions to the grids of smoke (smoke_shadow.glsl) */
     float4 sky_to_grid[3];
+    float4 haze[KILN_HAZE_PARTS]; /* without the sun's glow: shared/haze.h */
 };
 
 #endif

@@ -52,6 +52,10 @@
 #define LOOK_AXIAL     3u
 #define LOOK_VELOCITY  4u
 
+/* Bits of `flags.y` of a look. */
+#define LOOK_RANDOM_START 1u /* each particle starts at a cell of its own */
+#define LOOK_UNMIRRORED   2u /* no billboard is mirrored */
+
 /* Patterns of spheres: none, a stripe, or segments of each colour. */
 #define LOOK_PLAIN    0u
 #define LOOK_STRIPE   1u
@@ -60,7 +64,7 @@
 /* The part of a look that is the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* parameters for the progress of life */
-    uint4 flags;  /* additive; random start; literal soft formula (equation 3.3); textures */
+    uint4 flags;  /* additive; LOOK_* bits; literal soft formula (equation 3.3); textures */
     uint4 form;   /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame, or */
                   /* a stretch dims billboards */
     uint4 values; /* row of the table in which the values over other clocks begin; 0: none */

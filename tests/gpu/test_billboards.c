@@ -19,6 +19,7 @@ static const char SCENE[] =
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
     "simulation: {rate: 60}\n"
     "camera: {position: [1, 3.5, 3], target: [0.2, 1, 0.1], fov: 60 deg, roll: 25 deg, near: 0.1}\n"
+    "backdrop: {haze: 0}\n"
     "systems:\n"
     "  a:\n"
     "    emit: {rate: 1, life: 10 s}\n"

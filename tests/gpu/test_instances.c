@@ -32,7 +32,7 @@ static const char SCENE[] =
     "  a:\n"
     "    emit: {rate: 1, life: 10 s}\n"
     "    look: {shape: mesh, mesh: {file: tetrahedron.obj}, size: 1.6 m, scale: 0.5,\n"
-    "           fade: {in: 0, out: 0}, color: [0.8, 0.4, 0.2], bloom: [1, 0.5, 0]}\n";
+    "           lit: 0, fade: {in: 0, out: 0}, color: [0.8, 0.4, 0.2], bloom: [1, 0.5, 0]}\n";
 
 /* The mesh's scale, m per unit of the file (size * scale), and its colour. */
 static const double SIZE = 0.8, ALBEDO[3] = {0.8, 0.4, 0.2};

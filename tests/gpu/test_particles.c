@@ -26,6 +26,7 @@ static const char SCENE[] =
     "output: {size: [480, 360], fps: 60, frames: 100}\n"
     "camera: {position: [0, 1, 2.2], target: [0, 1, 0], fov: 60 deg, near: 0.05 m}\n"
     "backdrop:\n"
+    "  haze: 0\n"
     "  sun: {color: [1, 0.9, 0.8], direction: [1, 2, 1]}\n"
     "  objects:\n"
     "    - box: {center: [0.5, 1, 0], size: [0.6, 0.6, 0.6]}\n"

@@ -69,6 +69,32 @@ static const struct text FAINT = {
     "    emit: {bursts: {0 s: 70000}, life: 10 s, from: {box: {size: [6, 3, 2]}}}\n"
     "    look: {atlas: \"builtin:smoke\", size: 20 cm, opacity: 0.004, color: [1, 0.9, 0.8]}\n"};
 
+/* Sprites of all kinds in haze that is bright towards the sun, right above the eye as well. */
+static const struct text HAZY = {
+    "hazy",
+    "kiln: 1\n"
+    "simulation: {rate: 10}\n"
+    "output: {frames: 4, fps: 10}\n"
+    "camera: {position: [0, 1, 9], target: [0, 1.5, 0]}\n"
+    "backdrop: {haze: 0.1, sky: {horizon: [0.3, 0.4, 0.6]},\n"
+    "           sun: {direction: [-0.4, 0.3, -1], glow: 3, glow_size: 30 deg}}\n"
+    "systems:\n"
+    "  smoke:\n"
+    "    emit: {bursts: {0 s: 60}, life: 10 s, speed: 0, from: {box: {size: [6, 3, 16]}}}\n"
+    "    look: {atlas: \"builtin:puff\", lit: 1, color: [0.3, 0.2, 0.1]}\n"
+    "  glow:\n"
+    "    emit: {bursts: {0 s: 60}, life: 10 s, speed: 0, from: {box: {size: [6, 3, 16]}}}\n"
+    "    look: {atlas: \"builtin:fire\", temperature: 1500, bloom: 1}\n"
+    "  fire:\n"
+    "    emit: {bursts: {0 s: 60}, life: 10 s, speed: 0, from: {box: {size: [6, 3, 16]}}}\n"
+    "    look: {atlas: \"builtin:spark\", blend: add, temperature: 1700, bloom: [1, 0.5, 0.2]}\n"
+    "  dots:\n"
+    "    emit: {bursts: {0 s: 60}, life: 10 s, speed: 0, from: {box: {size: [6, 3, 16]}}}\n"
+    "    look: {shape: point, size: 0.1 m, color: [1, 0.1, 0.1]}\n"
+    "  lines:\n"
+    "    emit: {bursts: {0 s: 60}, life: 10 s, from: {box: {size: [6, 3, 16]}}}\n"
+    "    look: {shape: line, stretch: 0.3 s, line: {width: 3 px}, color: [0.1, 1, 0.1]}\n"};
+
 /* So many particles that raster=cpu blends pairs of flipbook cells before it draws
  * (lib/draw/sprites/cells.h). The particles are about 8 to 24 pixels wide and of all ages, so that
  * it blends cells of several levels of detail, with motion vectors, at many phases. */
@@ -301,6 +327,7 @@ static void draw_pass(struct subject *s, const struct pass *pass)
         .view = draw.view,
         .backdrop = draw.backdrop,
         .lighting = draw.lighting,
+        .fire_covers = draw.sum_alpha || draw.fire_covers,
         .table = calloc((size_t)kiln_look_rows(s->scene) * KILN_LOOK_SAMPLES, sizeof(float4)),
         .programs = programs};
     assert_non_null(scene.table);
@@ -353,6 +380,12 @@ static void techniques_agree_on_a_scene(void **state)
     assert_true(agree_on(test_device(), given->path, NULL));
 }
 
+static void techniques_agree_in_haze(void **state)
+{
+    (void)state;
+    assert_true(agree_on(test_device(), NULL, &HAZY));
+}
+
 static void techniques_agree_on_what_is_faint(void **state)
 {
     (void)state;
@@ -375,12 +408,14 @@ int main(int argc, char **argv)
 {
     static const struct CMUnitTest values = test_on_device(techniques_agree_on_values);
     static const struct CMUnitTest faint = test_on_device(techniques_agree_on_what_is_faint);
+    static const struct CMUnitTest hazy = test_on_device(techniques_agree_in_haze);
     static const struct CMUnitTest mixed = test_on_device(techniques_agree_on_mixed_cells);
     static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
     struct test_list list = {.count = 0};
     test_list_add_full(&list, &faint, 1);
     test_list_add_full(&list, &mixed, 1);
     test_list_add(&list, &values, 1);
+    test_list_add_full(&list, &hazy, 1);
     test_list_add_scenes(&list, scene, 7);
     return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);
 }

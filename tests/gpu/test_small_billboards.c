@@ -18,6 +18,7 @@ static const char SCENE[] =
     "output: {size: [64, 48], fps: 30, frames: 100}\n"
     "simulation: {rate: 60}\n"
     "camera: {position: [0, 0, 5], target: [0, 0, 0], fov: 13.173551 deg, near: 0.1}\n"
+    "backdrop: {haze: 0}\n"
     "systems:\n"
     "  a:\n"
     "    emit: {rate: 1, life: 10 s}\n"

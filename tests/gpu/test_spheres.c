@@ -28,7 +28,7 @@ static const char SCENE[] =
     "systems:\n"
     "  a:\n"
     "    emit: {rate: 1, life: 10 s}\n"
-    "    look: {shape: sphere, size: 0.8 m, scale: 0.5, fade: {in: 0, out: 0},\n"
+    "    look: {shape: sphere, lit: 0, size: 0.8 m, scale: 0.5, fade: {in: 0, out: 0},\n"
     "           color: [0.8, 0.4, 0.2], bloom: [1, 0.5, 0]}\n";
 
 static const double ALBEDO[3] = {0.8, 0.4, 0.2};

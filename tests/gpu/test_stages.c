@@ -149,7 +149,8 @@ static void spheres_belong_to_the_scene(void **state)
     struct frame smoke, spheres;
     frame_init(&smoke, *state, NULL);
     step_and_draw(&smoke, 50);
-    frame_init(&spheres, *state, "systems.smoke.look={shape: sphere, size: 0.5 m, bloom: 1}");
+    frame_init(&spheres, *state,
+               "systems.smoke.look={shape: sphere, size: 0.5 m, bloom: 1, lit: 0}");
     step_and_draw(&spheres, 50);
     assert_int_equal(smoke.drawn, spheres.drawn);
     assert_true(sum(layer(&spheres, SMOKE), 3, 4) == 0.0);

@@ -66,7 +66,8 @@ struct kiln_range fixture_range(float min, float max)
 
 struct kiln_system *fixture_add_system(struct scene_fixture *f, const char *name, float rate)
 {
-    struct kiln_system *system = &f->scene.systems[f->scene.system_count++];
+    struct kiln_system *system = &f->scene.systems[f->scene.system_count];
+    system->seed = f->scene.system_count++;
     system->name = name;
     system->enabled = true;
     system->emit.rate = fixture_constant(rate);

@@ -222,7 +222,7 @@ static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
     uint32_t number = (uint32_t)(random_unit(stream, RANDOM_TEXTURE) * (float)look->flags.w);
     uint4 texture = look->textures[number < look->flags.w ? number : look->flags.w - 1];
     float cells = (float)texture.y, position = passes * (cells - 1.0f);
-    if (look->flags.y != 0)
+    if ((look->flags.y & LOOK_RANDOM_START) != 0)
         position += random_unit(stream, RANDOM_CELL) * cells;
     uint32_t first = (uint32_t)floorf(position);
     s->layers[0] = texture.x + first % texture.y;
@@ -394,7 +394,8 @@ static void true_turn(const struct true_scene *t, struct true_subject *p, struct
     double longer = true_up(angle, p->row[KILN_LOOK_SHAPE][1], in_plane, facing, up);
     dvec upwards = dvec_add(dvec_scale(p->axes[0], up[0]), p->axes[1], up[1]);
     dvec sideways = dvec_add(dvec_scale(p->axes[0], up[1]), p->axes[1], -up[0]);
-    p->axes[0] = backwards ? dvec_scale(sideways, -1) : sideways;
+    const bool mirrors = (p->look->flags.y & LOOK_UNMIRRORED) == 0;
+    p->axes[0] = backwards && mirrors ? dvec_scale(sideways, -1) : sideways;
     p->axes[1] = upwards;
     s->right = dvec_scale(p->axes[0], p->half_size);
     s->up = dvec_scale(p->axes[1], p->half_size + longer);
@@ -417,15 +418,6 @@ static void true_read(const struct true_scene *t, uint32_t entry,
     p->moving = dvec_turn(view, dvec_of3(particle_velocity(*record)));
 }
 
-static void true_color(struct true_sprite *s, double const row[KILN_LOOK_ROWS][4])
-{
-    const size_t bytes = sizeof s->hot;
-    memcpy(s->hot, row[KILN_LOOK_HOT], bytes);
-    memcpy(s->cool, row[KILN_LOOK_COOL], bytes);
-    memcpy(s->color, row[KILN_LOOK_COVER], bytes);
-    memcpy(s->bloom, row[KILN_LOOK_BLOOM], bytes);
-}
-
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_sprite *s)
 {
@@ -446,7 +438,7 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
     p.half_size = 0.5 * shape[0] * p.scale;
     p.diameter_px = 2 * p.half_size * pixels_per_m;
     true_turn(t, &p, s);
-    true_color(s, (double const(*)[4])p.row);
+    true_color(t, s, (double const(*)[4])p.row, p.position);
     s->bulge = p.half_size * p.row[KILN_LOOK_BLOOM][3];
     s->distance = sqrt(dvec_dot(s->center, s->center));
     true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
@@ -592,7 +584,8 @@ void true_shade(const struct true_scene *t, const struct true_sprite *s,
                        s->light[3][c] * facing;
         double covering = s->color[c] * fmax(light, 0);
         double emitted = masks ? s->cool[c] + (s->hot[c] - s->cool[c]) * cell[2] : s->hot[c];
-        rgba[c] = (emitted + covering) * (masks ? alpha : cell[c]) * fade;
+        rgba[c] =
+            (emitted + covering) * (masks ? alpha : cell[c]) * fade + s->veil[c] * alpha * fade;
     }
     rgba[3] = alpha * fade;
 }

@@ -17,6 +17,7 @@ struct true_scene {
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_lighting *lighting;
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
+    bool fire_covers; /* additive particles cover, too, or their alpha is summed */
     float4 *table; /* values of the looks (shared/look_layout.h, draw/moment/look_values.h) */
     const struct kiln_look_program *programs; /* of each system; NULL: values over life alone */
 };
@@ -31,8 +32,9 @@ struct true_sprite {
     double soft, distance, opacity;
     /* hot, cool: light emitted where a cell's heat is 1 and 0; color: reflected colour; light:
      * received from all sides, and the parts along right, up and towards the viewer; bloom: factors
-     * on the light that goes to the bloom; bulge: half of the sprite's thickness, m. */
-    double hot[3], cool[3], color[3], light[4][3], bloom[3], bulge;
+     * on the light that goes to the bloom; bulge: half of the sprite's thickness, m; veil: the haze
+     * before the sprite where it is opaque. */
+    double hot[3], cool[3], color[3], light[4][3], bloom[3], bulge, veil[3];
     /* Index 0 is for a billboard's width along right, index 1 along up. narrowed: the true width
      * divided by the drawn width, below 1 for a width of less than a pixel; rim: the drawn width,
      * px, if the edges are filtered, or 0 for hard edges. */
@@ -61,6 +63,11 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
 /* Computes a row of the look (KILN_LOOK_*) of a particle. */
 void true_look(const struct true_scene *t, uint32_t system, uint32_t row,
                const struct kiln_particle *record, double out[4]);
+
+/* Fills in the colours of a sprite from the rows of its look (KILN_LOOK_*), behind the haze.
+ * position: the particle's, in the world, m. */
+void true_color(const struct true_scene *t, struct true_sprite *s,
+                double const row[KILN_LOOK_ROWS][4], dvec position);
 
 /* Finds the point of a sprite that the ray through the point (x, y) of the picture, px, meets.
  * Returns false if the ray misses the sprite. */

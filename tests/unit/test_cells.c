@@ -91,10 +91,10 @@ static float linear(uint8_t level)
 static void cells_do_not_bleed(void **state)
 {
     struct fixture *f = *state;
-    struct picture picture = make_picture(32, 16); /* 2 x 2 cells of 16 x 8 */
+    struct picture picture = make_picture(32, 32); /* 2 x 2 cells of 16 x 16 */
     static const uint8_t levels[4] = {255, 0, 40, 120};
-    for (uint32_t i = 0; i < 32 * 16; i++)
-        memset(picture.rgb + (size_t)i * 3, levels[i % 32 / 16 + i / 32 / 8 * 2], 3);
+    for (uint32_t i = 0; i < 32 * 32; i++)
+        memset(picture.rgb + (size_t)i * 3, levels[i % 32 / 16 + i / 32 / 16 * 2], 3);
     write_picture(&picture, f->path);
     static const uint32_t edges[] = {4, 12, 40};
     for (size_t e = 0; e < 3; e++) {
@@ -110,6 +110,49 @@ static void cells_do_not_bleed(void **state)
         }
         free(cells);
     }
+}
+
+/* A cell that is four times as wide as high, or as high as wide, takes a quarter of the square, in
+ * its middle. All its light is there, and what is around it is transparent. */
+static void cells_keep_their_proportions(void **state)
+{
+    struct fixture *f = *state;
+    enum { SIDE = 32 };
+    for (int high = 0; high < 2; high++) {
+        struct picture picture = high ? make_picture(16, 64) : make_picture(64, 16);
+        memset(picture.rgb, 255, 64 * 16 * 3);
+        write_picture(&picture, f->path);
+        float cell[SIDE * SIDE * 4], alpha = 0.0f;
+        struct kiln_error error = {0};
+        const struct kiln_cells_source source = {f->path, 1, 1, SIDE, NULL};
+        assert_true(kiln_cells_load(&source, cell, f->threads, &error));
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const int from_middle = abs((high ? i % SIDE : i / SIDE) * 2 + 1 - SIDE);
+            alpha += cell[4 * i + 3];
+            if (from_middle < 4)
+                assert_true(fabsf(cell[4 * i + 3] - 1.0f) < 1e-5f);
+            else if (from_middle > 12)
+                assert_true(cell[4 * i + 3] == 0.0f && cell[4 * i] == 0.0f);
+        }
+        assert_true(fabsf(alpha / (SIDE * SIDE) - 0.25f) < 0.006f);
+    }
+}
+
+/* Full red and green of a cell that is twice as wide as high are a whole edge of the square to the
+ * right, and half of one upwards. */
+static void motion_counts_edges_of_the_square(void **state)
+{
+    struct fixture *f = *state;
+    struct picture picture = make_picture(32, 16);
+    memset(picture.rgb, 255, 32 * 16 * 3);
+    write_picture(&picture, f->path);
+    float motion[16 * 16 * 2];
+    struct kiln_error error = {0};
+    const struct kiln_cells_source source = {f->path, 1, 1, 16, NULL};
+    assert_true(kiln_cells_load_motion(&source, motion, f->threads, &error));
+    const float *middle = motion + (8 * 16 + 8) * 2;
+    assert_true(fabsf(middle[0] - 1.0f) < 1e-5f && fabsf(middle[1] - 0.5f) < 1e-5f);
+    assert_true(motion[0] == 0.0f && motion[1] == 0.0f);
 }
 
 /* A ramp stays a ramp: no steps where it is enlarged, the same light where it is shrunk. */
@@ -269,7 +312,7 @@ static void frames_of_a_video_are_cells(void **state)
         for (uint32_t i = 0; i < 16 * 16; i++)
             sum += cells[(cell * 16 * 16 + i) * 4 + 2] / (16 * 16);
         for (uint32_t i = 0; i < 64 * 36; i++)
-            expected += linear((uint8_t)test_level(cell, 64, i % 64, i / 64, 2)) / (64 * 36);
+            expected += linear((uint8_t)test_level(cell, 64, i % 64, i / 64, 2)) / (64 * 64);
         assert_true(fabsf(sum - expected) < 0.02f);
     }
     source.rows = 4;
@@ -334,8 +377,10 @@ int main(void)
 #define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
     static const struct CMUnitTest tests[] = {
         WITH_FOLDER(cells_do_not_bleed),
+        WITH_FOLDER(cells_keep_their_proportions),
         WITH_FOLDER(cells_are_resized_smoothly),
         WITH_FOLDER(motion_of_a_file_makes_up_for_cells),
+        WITH_FOLDER(motion_counts_edges_of_the_square),
         WITH_FOLDER(half_of_red_and_green_is_rest),
         WITH_FOLDER(frames_of_a_video_are_cells),
         WITH_FOLDER(light_of_a_video_is_not_negative),

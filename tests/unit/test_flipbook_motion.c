@@ -17,7 +17,7 @@ enum { EDGE = 64, SAMPLES = EDGE * EDGE * 4, FRAMES = 16, FIRST = 4, STEP = 3 };
     "output: {size: [64, 64], fps: 30, frames: " frames "}\n"                                      \
     "simulation: {rate: 60}\n"                                                                     \
     "camera: {position: [0, 0, 20], target: [0, 0, 0], fov: 11.42 deg}\n" /* 4 m at the target */  \
-    "backdrop: {floor: none, sky: {top: [0, 0, 0], horizon: [0, 0, 0]}}\n"                         \
+    "backdrop: {haze: 0, floor: none, sky: {top: [0, 0, 0], horizon: [0, 0, 0]}}\n"                \
     "post: {bloom: {strength: 0}, tonemap: none}\n"                                                \
     "systems:\n"
 #define CARD(layout)                                                                               \

@@ -26,7 +26,7 @@ struct tray {
 
 /* A plotter: something that has every type. */
 struct plotter {
-    uint32_t version, pens, width[2];
+    uint32_t version, pens, paths, width[2];
     bool quiet, limited;
     struct kiln_rational rate;
     double pause_s, limit_s;
@@ -35,7 +35,7 @@ struct plotter {
     struct kiln_bounds room;
     struct kiln_value speed;
     struct kiln_value3 place, ink;
-    struct kiln_range pressure;
+    struct kiln_range pressure, tilt;
     struct tray trays[2];
     uint32_t tray_count;
     struct mark_of marks[3];
@@ -96,6 +96,8 @@ TABLE(rows) = {
     SWITCH(NO_PART, "limit", limit, limited, "none", "When it gives up."),
     {ROW(NO_PART, "width", pair, width, "[1, 2]", "Of thin and thick lines."),
      LIMITS(KILN_PIXELS, 1, 9)},
+    {ROW(NO_PART, "paths", integer, paths, "auto", "At a time."), LIMITS(KILN_PLAIN, 0, 9),
+     .special_word = "auto"},
     BOOLEAN(NO_PART, "quiet", quiet, "false", "It makes no noise."),
     {ROW(NO_PART, "rate", rational, rate, "auto", "Lines a second."), LIMITS(KILN_PLAIN, 1, 100),
      .special_word = "auto"},
@@ -109,6 +111,8 @@ TABLE(rows) = {
     VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME(2), "[0, 0, 0]", "Of the plotter."),
     COLOR(NO_PART, "ink", ink, 1, TIME(3), "0", "What it draws with."),
     RANGE(NO_PART, "pressure", pressure, KILN_PLAIN, 0, 1, TIME(4), "0.5", "Of the pen."),
+    {ROW(NO_PART, "tilt", range, tilt, "auto", "Of the pen."), LIMITS(KILN_PLAIN, -2, 2),
+     .special_word = "auto"},
     MAP(NO_PART, "trays", trays, tray, tray_count, "{}", "The trays by their names."),
     LIST(NO_PART, "marks", marks, mark, mark_count, "[]", "What it draws."),
     END,
@@ -118,6 +122,7 @@ static const char everything[] = "plotter: 1\n"
                                  "pens: {count: 8}\n"
                                  "limit: {time: 90 s}\n"
                                  "width: [3, 9]\n"
+                                 "paths: 0\n"
                                  "quiet: true\n"
                                  "rate: 29.97\n"
                                  "pause: 20 ms\n"
@@ -128,6 +133,7 @@ static const char everything[] = "plotter: 1\n"
                                  "place: {keys: {0 s: [0, 1, 2], 1 s: [3, 4, 5]}}\n"
                                  "ink: 0.25\n"
                                  "pressure: [0.25, 0.5]\n"
+                                 "tilt: -1.5\n"
                                  "trays: {upper: {}, lower: {sheets: 7}}\n"
                                  "marks: [dot: 5 mm, bar: {length: 10 cm}]\n";
 
@@ -181,7 +187,7 @@ static void a_document_fills_its_target(void **state)
     read_plotter(&r, everything);
     const struct plotter *p = &r.plotter;
     assert_true(p->quiet && p->limited && p->limit_s == 90 && p->pause_s == 0.02);
-    assert_true(p->pens == 8 && p->width[0] == 3 && p->width[1] == 9);
+    assert_true(p->pens == 8 && p->width[0] == 3 && p->width[1] == 9 && p->paths == 0);
     assert_true(p->rate.num == 30000 && p->rate.den == 1001);
     assert_int_equal(p->medium, MEDIUM_GLASS);
     assert_string_equal(p->title, "a \"line\"");
@@ -189,6 +195,7 @@ static void a_document_fills_its_target(void **state)
     assert_true(value_at(r.reader.keys, p->speed, value_clocks_at(1.0f, 0)) == 2.0f);
     assert_true(value3_at(r.reader.keys, p->place, value_clocks_at(0.5f, 0)).z == 3.5f);
     assert_true(p->ink.y.constant == 0.25f && p->pressure.max.constant == 0.5f);
+    assert_true(p->tilt.min.constant == -1.5f && p->tilt.max.constant == -1.5f);
     assert_int_equal(p->tray_count, 2);
     assert_string_equal(p->trays[1].name, "lower");
     assert_true(p->trays[0].sheets == 100 && p->trays[1].sheets == 7);
@@ -205,6 +212,8 @@ static void what_is_not_said_has_its_default(void **state)
     read_plotter(&r, "plotter: 1");
     const struct plotter *p = &r.plotter;
     assert_true(!p->quiet && !p->limited && p->pens == 4 && p->rate.num == 0);
+    assert_int_equal(p->paths, KILN_INTEGER_BY_WORD);
+    assert_true(kiln_range_is_by_word(&p->tilt) && !kiln_range_is_by_word(&p->pressure));
     assert_true(p->medium == MEDIUM_PAPER && !p->room.enabled && p->speed.constant == 1.0f);
     assert_string_equal(p->title, "");
     assert_null(r.reader.keys);
@@ -244,6 +253,10 @@ static void errors_say_where_and_in_what(void **state)
          "p.yaml:2:8: pens.cuont: unknown key (did you mean 'count'?)"},
         {"plotter: 1\nlimit: {time: 2 d}",
          "p.yaml:2:15: limit.time: unit 'd' is wrong; allowed is s, ms, min or h"},
+        {"plotter: 1\npaths: ten",
+         "p.yaml:2:8: paths: expected a whole number from 0 to 9, or auto, found 'ten'"},
+        {"plotter: 1\ntilt: [auto, 1]",
+         "p.yaml:2:8: tilt: expected a number from -2 to 2, found 'auto'"},
         {"plotter: 1\ntitle: 123456789012345678901",
          "p.yaml:2:8: title: the text has 21 bytes; at most 20 are allowed"},
         {"plotter: 1\nmarks: [dot: 1 mm, circle: {}]",
@@ -267,9 +280,9 @@ static void an_error_finds_its_place_by_a_path(void **state)
         kiln_node_parse(r.scratch, everything, sizeof everything - 1, &r.origin, &r.error);
     assert_non_null(root);
     assert_false(kiln_reader_error_at(&r.reader, root, "marks.1.bar.length", "too %s", "long"));
-    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:16:34: marks.1.bar.length: too long");
+    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:18:34: marks.1.bar.length: too long");
     kiln_reader_error_at(&r.reader, root, "marks.0.dot.color", "dull");
-    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:16:14: marks.0.dot.color: dull");
+    expect_error(&r.error, KILN_INVALID_INPUT, "p.yaml:18:14: marks.0.dot.color: dull");
     end(&r);
 }
 
@@ -298,8 +311,8 @@ static void keys_are_overridden_by_the_table(void **state)
 static void count_key(void *user, const struct kiln_option_key *key)
 {
     static const char *const words[][2] = {
-        {"quiet", "true|false"}, {"medium", "paper|glass"}, {"rate", "auto"},
-        {"room", "none"},        {"limit", "none"},
+        {"quiet", "true|false"}, {"medium", "paper|glass"}, {"rate", "auto"}, {"room", "none"},
+        {"limit", "none"},       {"paths", "auto"},         {"tilt", "auto"},
     };
     unsigned *found = user;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
@@ -315,7 +328,7 @@ static void words_are_offered_as_a_file_has_them(void **state)
     (void)state;
     unsigned found = 0;
     assert_true(kiln_reference_visit(rows, count_key, &found));
-    assert_int_equal(found, 5);
+    assert_int_equal(found, 7);
 }
 
 static void a_reference_and_a_schema_follow(void **state)
@@ -332,6 +345,8 @@ static void a_reference_and_a_schema_follow(void **state)
         "\"title\": {\"description\": \"What it draws.\", "
         "\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 0, "
         "\"maxLength\": 20}",
+        "\"paths\": {\"description\": \"At a time.\", \"anyOf\": [{\"type\": \"integer\", "
+        "\"minimum\": 0, \"maximum\": 9}, {\"const\": \"auto\"}]}",
         "\"required\": [\"plotter\"]",
     };
     char *text = NULL;

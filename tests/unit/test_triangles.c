@@ -139,7 +139,8 @@ static int draw_and_check(const float3 corner[3], struct picture *picture)
     other.height = picture->height;
     other.pitch = picture->pitch;
     kiln_mesh_project(corner, (float4){U, V, width, height},
-                      (float4){0.5f * width, 0.5f * height, 0.0f, 0.0f}, &flat, &face, &volume);
+                      (float4){0.5f * width, 0.5f * height, 0.0f, 0.0f}, KILN_MESH_NEAREST, &flat,
+                      &face, &volume);
     bool is_first = true;
     for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
         if (!kiln_simd_has(simd))

@@ -192,13 +192,14 @@ static void fire_is_the_same_in_a_pass_of_its_own(void **state)
     (void)state;
     static const char *const layers[] = {"fire", "bloom"};
     const char *overrides[] = {"output.size=[96, 54]", "systems.*.look.size=0.6 m",
-                               "systems.smoke.look.opacity=1", "post.compose=merged"};
+                               "systems.smoke.look.opacity=1", "backdrop.haze=0",
+                               "post.compose=merged"};
     struct seen seen[2];
     for (int i = 0; i < 2; i++) {
-        struct kiln_scene *cloud = load_cloud(overrides, 4);
+        struct kiln_scene *cloud = load_cloud(overrides, 5);
         seen[i] = show_scene(cloud, NULL, layers, 2);
         kiln_scene_destroy(&cloud);
-        overrides[3] = "post.compose=separate";
+        overrides[4] = "post.compose=separate";
     }
     const float *merged = seen[0].pixels[0], *separate = seen[1].pixels[0];
     const float *visible = seen[0].pixels[1];

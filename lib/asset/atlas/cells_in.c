@@ -2,7 +2,10 @@
  * image is resized cell by cell, so that neighbours do not bleed into each other. Each row of a
  * cell is filtered horizontally and then added, weighted, to those rows of the resized cell whose
  * filter covers it. The filter is Mitchell and Netravali's cubic ("Reconstruction Filters in
- * Computer Graphics", 1988), widened where a cell shrinks. */
+ * Computer Graphics", 1988), widened where a cell shrinks.
+ *
+ * Resized cells are squares. A cell that is no square keeps its proportions: it lies in the middle
+ * of the square, with nothing around it. */
 #include "asset/atlas/cells_in.h"
 
 #include <math.h>
@@ -52,7 +55,8 @@ static void read_motion(const struct kiln_asset_image *image, size_t pixel, floa
 /* ---- filter ---------------------------------------------------------------------------------- */
 
 /* The weights, along one axis, by which samples of a cell are summed into samples of the resized
- * cell. */
+ * cell. Where the cell takes only a part of the axis, it fades out at its own edges; elsewhere its
+ * outermost samples go on beyond its edges. */
 struct filter {
     uint32_t taps;   /* number of samples that are summed into each resized sample */
     uint32_t *first; /* for each resized sample: the first sample that is summed */
@@ -75,9 +79,22 @@ static void filter_finish(struct filter *filter)
     free(filter->weights);
 }
 
-static bool filter_init(struct filter *filter, uint32_t from, uint32_t to)
+/* Returns the sum of the weights of all samples around a place, also of those beyond the edges. */
+static float whole_sum(float middle, float widening)
 {
-    float step = (float)from / (float)to, widening = step > 1.0f ? step : 1.0f;
+    const float first = floorf(middle - 2.0f * widening);
+    const uint32_t taps = (uint32_t)(4.0f * widening) + 3;
+    float sum = 0.0f;
+    for (uint32_t k = 0; k < taps; k++)
+        sum += cubic((first + (float)k + 0.5f - middle) / widening);
+    return sum;
+}
+
+/* part: of the axis that the cell takes, in its middle. */
+static bool filter_init(struct filter *filter, uint32_t from, uint32_t to, float part)
+{
+    const float step = (float)from / ((float)to * part), widening = step > 1.0f ? step : 1.0f;
+    const float before = 0.5f * (1.0f - part) * (float)to; /* samples before the cell */
     uint32_t taps = (uint32_t)(4.0f * widening) + 2;
     filter->taps = taps < from ? taps : from;
     filter->first = calloc(to, sizeof *filter->first);
@@ -85,7 +102,7 @@ static bool filter_init(struct filter *filter, uint32_t from, uint32_t to)
     if (!filter->first || !filter->weights)
         return false;
     for (uint32_t i = 0; i < to; i++) {
-        float middle = ((float)i + 0.5f) * step, lowest = floorf(middle - 2.0f * widening);
+        float middle = ((float)i + 0.5f - before) * step, lowest = floorf(middle - 2.0f * widening);
         float last_first = (float)(from - filter->taps);
         float first = fminf(fmaxf(lowest, 0.0f), last_first), sum = 0.0f;
         float *weights = filter->weights + (size_t)i * filter->taps;
@@ -94,6 +111,8 @@ static bool filter_init(struct filter *filter, uint32_t from, uint32_t to)
             weights[k] = cubic((first + (float)k + 0.5f - middle) / widening);
             sum += weights[k];
         }
+        if (part < 1.0f)
+            sum = whole_sum(middle, widening);
         for (uint32_t k = 0; k < filter->taps; k++)
             weights[k] /= sum;
     }
@@ -168,6 +187,16 @@ static bool check_division(uint32_t width, uint32_t height, const struct kiln_ce
                           source->path, width, height, source->columns, source->rows);
 }
 
+/* Makes motion relative to the edges of the square that a cell lies in. part: of each edge that the
+ * cell takes. */
+static void shrink_motion(float *cells, size_t texels, const float part[2])
+{
+    for (size_t i = 0; i < texels; i++) {
+        cells[4 * i] *= part[0];
+        cells[4 * i + 1] *= part[1];
+    }
+}
+
 /* Resizes all cells of an image into `cells`, which the caller has filled with zeros. */
 static bool resize_image(const struct kiln_asset_image *image,
                          const struct kiln_cells_source *source, bool motion, float *cells,
@@ -183,13 +212,18 @@ static bool resize_image(const struct kiln_asset_image *image,
                          .cells = cells};
     if (!check_division(image->width, image->height, source, error))
         return false;
+    const float width = (float)job.cell_width, height = (float)job.cell_height;
+    const float longer = fmaxf(width, height), part[2] = {width / longer, height / longer};
+    const size_t count = (size_t)source->columns * source->rows;
     job.rows = calloc(kiln_threads_count(threads),
                       ((size_t)job.cell_width + job.edge) * 4 * sizeof(float));
-    bool ok = job.rows && filter_init(&job.across, job.cell_width, job.edge) &&
-              filter_init(&job.down, job.cell_height, job.edge);
+    bool ok = job.rows && filter_init(&job.across, job.cell_width, job.edge, part[0]) &&
+              filter_init(&job.down, job.cell_height, job.edge, part[1]);
     if (ok)
-        kiln_threads_for(threads, (size_t)source->columns * source->rows, 1, resize_cells, &job);
-    else
+        kiln_threads_for(threads, count, 1, resize_cells, &job);
+    if (ok && motion)
+        shrink_motion(cells, count * source->edge * source->edge, part);
+    if (!ok)
         kiln_error_no_memory(error, "the cells of %s", source->path);
     filter_finish(&job.across);
     filter_finish(&job.down);

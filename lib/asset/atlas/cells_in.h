@@ -10,7 +10,9 @@ struct kiln_cells_source {
     const char *path;
     /* divide an image; of a video, the first columns x rows frames are the cells */
     uint32_t columns, rows;
-    /* edge of the resulting cells, px; they are resized in premultiplied linear light */
+    /* edge of the resulting cells, px; they are resized in premultiplied linear light. A cell that
+     * is wider than high, or higher than wide, keeps its proportions: it lies in the middle of the
+     * resulting one, and what is left of that is transparent, or has no motion. */
     uint32_t edge;
     struct kiln_loader *loader; /* opens the file; may be NULL */
 };
@@ -23,7 +25,8 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
 
 /* Fills columns * rows cells of edge x edge pairs with the motion that an image stores in red and
  * green. The full value is 1, and half of it (128 of 255) is 0, whatever
- * transfer function the image names. */
+ * transfer function the image names. The motion of a cell that is no square is multiplied so that
+ * it counts edges of the resulting cell, not its own. */
 bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
                             struct kiln_threads *threads, struct kiln_error *error);
 

@@ -73,7 +73,24 @@ void kiln_texture_finish(struct kiln_texture *texture)
 struct sky_sums {
     double up[3], horizon[3];
     double up_weight, horizon_weight;
+    double around[KILN_SKY_PARTS][3], around_weight; /* over the rows nearest to the horizon */
 };
+
+/* Adds a row to the colours at the horizon. A part of the picture that is narrower than a pixel
+ * takes the pixel that it lies in. */
+static void add_around(struct sky_sums *sums, const float *rgb, uint32_t width)
+{
+    for (uint32_t i = 0; i < KILN_SKY_PARTS; i++) {
+        const uint32_t from = (uint32_t)((uint64_t)i * width / KILN_SKY_PARTS);
+        uint32_t to = (uint32_t)((uint64_t)(i + 1) * width / KILN_SKY_PARTS);
+        to = to > from ? to : from + 1;
+        for (uint32_t x = from; x < to; x++) {
+            for (uint32_t c = 0; c < 3; c++)
+                sums->around[i][c] += (double)rgb[3 * x + c] / (to - from);
+        }
+    }
+    sums->around_weight += 1.0;
+}
 
 static void add_row(struct sky_sums *sums, const float *rgb, uint32_t width, float elevation)
 {
@@ -95,10 +112,18 @@ static void add_row(struct sky_sums *sums, const float *rgb, uint32_t width, flo
     sums->horizon_weight += area * near;
 }
 
+/* Returns whether a row of a picture is one of those nearest to its horizon: within 3 degrees, or
+ * the two about the middle. */
+static bool is_at_horizon(uint32_t y, uint32_t height)
+{
+    const double rows = fmax(1.0, (double)height / 60.0);
+    return fabs((double)y + 0.5 - 0.5 * (double)height) < rows;
+}
+
 bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *loader,
                             const char *path, struct kiln_error *error)
 {
-    *light = (struct kiln_sky_light){{0}, {0}};
+    *light = (struct kiln_sky_light){.up = {0}};
     struct kiln_asset_image *image = kiln_asset_image_load_sky(loader, path, error);
     if (!image)
         return false;
@@ -108,7 +133,12 @@ bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *lo
         float elevation = 3.14159265f * (0.5f - ((float)y + 0.5f) / (float)image->height);
         kiln_linear_row(image, y, row);
         add_row(&sums, row, image->width, elevation);
+        if (is_at_horizon(y, image->height))
+            add_around(&sums, row, image->width);
     }
+    for (int i = 0; i < KILN_SKY_PARTS * 3; i++)
+        light->around[i / 3][i % 3] =
+            (float)(sums.around[i / 3][i % 3] / fmax(sums.around_weight, 1.0));
     for (int c = 0; c < 3; c++) {
         light->up[c] = (float)(sums.up[c] / fmax(sums.up_weight, 1e-12));
         light->horizon[c] = (float)(sums.horizon[c] / fmax(sums.horizon_weight, 1e-12));

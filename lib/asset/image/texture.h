@@ -18,10 +18,14 @@ bool kiln_texture_init(struct kiln_texture *texture, struct kiln_device *device,
                        struct kiln_error *error);
 void kiln_texture_finish(struct kiln_texture *texture);
 
+enum { KILN_SKY_PARTS = 32 };
+
 /* Light of an equirectangular picture on surfaces: the mean radiance that a surface facing up
- * receives, and that of the band around the horizon. */
+ * receives, and that of the band around the horizon. `around` has the radiance right at the
+ * horizon, of equal parts of the picture from its left to its right. */
 struct kiln_sky_light {
     float up[3], horizon[3];
+    float around[KILN_SKY_PARTS][3];
 };
 
 bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *loader,

@@ -3,6 +3,8 @@
  * changed since the last frame, the picture is kept. */
 #include "draw/backdrop/backdrop.h"
 
+#include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +55,28 @@ static void light_by_image(const struct kiln_backdrop_stage *stage, float intens
         (float4){up[0] * intensity, up[1] * intensity, up[2] * intensity, block->sky_top.w};
     block->sky_horizon = (float4){horizon[0] * intensity, horizon[1] * intensity,
                                   horizon[2] * intensity, block->sky_horizon.w};
+}
+
+/* Fills in the colours of haze before a sky that is a picture. turn: of the picture, as a part of a
+ * full turn, as sky_place_of in shared/picture_map.h adds it. */
+static void fill_haze(const struct kiln_backdrop_stage *stage, float turn, float intensity,
+                      struct kiln_draw_backdrop *block)
+{
+    static_assert((int)KILN_SKY_PARTS == (int)KILN_HAZE_PARTS, "a part has a colour");
+    block->counts.x = 1;
+    for (uint32_t i = 0; i < KILN_HAZE_PARTS; i++) {
+        /* the middles of the picture's parts lie half a part from their edges */
+        float place = (float)i / (float)KILN_HAZE_PARTS + turn;
+        place = (place - floorf(place)) * (float)KILN_HAZE_PARTS + ((float)KILN_HAZE_PARTS - 0.5f);
+        const uint32_t low = exact_uint(place);
+        const float part = place - (float)low;
+        const float *from = stage->sky_light.around[low % KILN_HAZE_PARTS];
+        const float *to = stage->sky_light.around[(low + 1) % KILN_HAZE_PARTS];
+        float color[3];
+        for (int c = 0; c < 3; c++)
+            color[c] = intensity * (from[c] + (to[c] - from[c]) * part);
+        block->haze[i] = (float4){color[0], color[1], color[2], 0.0f};
+    }
 }
 
 /* Holds the sizes of the floor's and the sky's pictures; width 0: no picture. */
@@ -221,8 +245,10 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
         .from_sun = moment->from_sun,
     };
     fill_maps(stage->scene, &pictures, time_s, &inputs.shapes);
-    if (pictures.sky.width)
+    if (pictures.sky.width) {
         light_by_image(stage, inputs.shapes.sky_map.y, &inputs.block);
+        fill_haze(stage, inputs.shapes.sky_map.x, inputs.shapes.sky_map.y, &inputs.block);
+    }
     if (moment->meshes.painted)
         inputs.paint = kiln_painted_all_changes(moment->meshes.painted);
     add_lighting(&inputs.block, lighting);

@@ -147,7 +147,7 @@ static int32_t pixel_within(float x, float size)
 static struct kiln_pixel_box cover_bounds(const struct kiln_view *view,
                                           const struct kiln_object_bounds *bounds, uint32_t number)
 {
-    const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
+    const float near = 1e-6f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
     float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
     int in_front = 0;
     mat4 world_to_view;

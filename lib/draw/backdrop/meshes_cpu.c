@@ -233,6 +233,12 @@ static void project_uvs(const struct mesh_projection *p, size_t i, float volume)
     }
 }
 
+/* Returns the nearest distance at which a camera sees meshes, m. */
+static float nearest_of(const struct kiln_view *view)
+{
+    return exact_min(KILN_MESH_NEAREST, view->eye.w);
+}
+
 static void project_triangle(const struct mesh_projection *p, size_t i)
 {
     const uint32_t *corners = p->mesh->triangles[i];
@@ -242,8 +248,8 @@ static void project_triangle(const struct mesh_projection *p, size_t i)
                               p->view_positions[corners[2]]};
     float3 face;
     float volume;
-    const bool seen =
-        kiln_mesh_project(corner, p->view->frustum, p->view->principal, flat, &face, &volume);
+    const bool seen = kiln_mesh_project(corner, p->view->frustum, p->view->principal,
+                                        nearest_of(p->view), flat, &face, &volume);
     p->ranges[i] = kiln_rows_of_triangle(flat, p->view->frustum.w);
     if (!seen)
         return;
@@ -336,7 +342,7 @@ static void rasterise_band(const struct raster_job *f, uint32_t band, float *nea
         .v_step = -2.0f * frustum.y / frustum.w,
         .layers = KILN_HIT_LAYERS,
         .offsets = {{0.5f, 0.5f}, KILN_EDGE_OFFSETS(PAIR)},
-        .nearness_max = 1.0f / KILN_MESH_NEAREST,
+        .nearness_max = 1.0f / nearest_of(f->view),
         .nearness = nearness,
         .triangles = hits,
         .pitch = m->view.pitch,

@@ -9,6 +9,7 @@
 #include "draw/backdrop/ray_sun.h"
 #include "draw/light/ray_lamp.h"
 #include "shared/floor.h"
+#include "shared/haze.h"
 #include "shared/lamp.h"
 
 struct ray_color {
@@ -225,30 +226,44 @@ SIMD struct vf3 haze_color(const struct kiln_ray_frame *frame, struct vf3 direct
     return haze;
 }
 
+/* Returns colours with the haze in front of them. t: of the ray from the eye along the direction;
+ * active: a mask. */
+SIMD struct vf3 behind_haze(const struct kiln_ray_frame *frame, struct vf3 color, vf t,
+                            struct vf3 direction, vi active, const struct cached_rays *cached)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    if (b->counts.z != 0 || b->floor_params.z <= 0.0f)
+        return color;
+    vf clear = haze_clear(b->floor_params.z, t, vf3_length(direction));
+    const struct vf3 haze = haze_color(frame, direction, active, cached);
+    return vf3_add_scaled(haze, vf3_sub(color, haze), clear);
+}
+
 /* Holds light that arrives at hits. */
 struct hit_light {
     struct vf3 irradiance; /* of the sky and of the lamps */
     vf sunlight;           /* part of the sun that arrives */
 };
 
-/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, with haze. */
+/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, without haze. */
+SIMD struct vf3 radiance_before_haze(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
+                                     const struct hit_light *light)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    vf sun = vf_max(vf3_dot_all(hit->normal, b->sun_direction), vf_all(0.0f)) * light->sunlight;
+    const struct vf3 irradiance = vf3_add_scaled(light->irradiance, vf3_all(b->sun_color), sun);
+    return (struct vf3){hit->albedo.x * (1.0f / RAY_PI) * irradiance.x,
+                        hit->albedo.y * (1.0f / RAY_PI) * irradiance.y,
+                        hit->albedo.z * (1.0f / RAY_PI) * irradiance.z};
+}
+
+/* Returns the same with haze. */
 SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
                                struct vf3 direction, const struct hit_light *light,
                                const struct cached_rays *cached)
 {
-    const struct kiln_draw_backdrop *b = frame->backdrop;
-    bool transparent = b->counts.z != 0;
-    vi surface = hit->surface >= 0.0f;
-    vf sun = vf_max(vf3_dot_all(hit->normal, b->sun_direction), vf_all(0.0f)) * light->sunlight;
-    const struct vf3 irradiance = vf3_add_scaled(light->irradiance, vf3_all(b->sun_color), sun);
-    struct vf3 color = {hit->albedo.x * (1.0f / RAY_PI) * irradiance.x,
-                        hit->albedo.y * (1.0f / RAY_PI) * irradiance.y,
-                        hit->albedo.z * (1.0f / RAY_PI) * irradiance.z};
-    if (!transparent && b->floor_params.z > 0.0f) {
-        vf clear = vf_exp(-b->floor_params.z * hit->t * vf3_length(direction));
-        struct vf3 haze = haze_color(frame, direction, surface, cached);
-        color = vf3_add_scaled(haze, vf3_sub(color, haze), clear);
-    }
+    struct vf3 color = radiance_before_haze(frame, hit, light);
+    color = behind_haze(frame, color, hit->t, direction, hit->surface >= 0.0f, cached);
     return (struct ray_color){color, vf_all(1.0f)};
 }
 

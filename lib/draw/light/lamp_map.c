@@ -186,8 +186,8 @@ static uint32_t project_face(const struct kiln_lamp_maps *maps, const struct sho
                                              at.z - lamp->position.z});
             }
             if (!is_beside(corner))
-                count += kiln_mesh_project(corner, frustum, principal, &canvas->triangles[count],
-                                           &normal, &volume);
+                count += kiln_mesh_project(corner, frustum, principal, KILN_MESH_NEAREST,
+                                           &canvas->triangles[count], &normal, &volume);
         }
         positions += mesh->vertex_count;
     }

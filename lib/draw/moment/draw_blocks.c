@@ -10,7 +10,8 @@ static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_light) == 176, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, lights) == 112, "std140");
-static_assert(sizeof(struct kiln_draw_backdrop) == 208 + 176 * KILN_MOST_LAMPS,
+static_assert(sizeof(struct kiln_draw_backdrop) ==
+                  208 + 176 * KILN_MOST_LAMPS + 16 * KILN_HAZE_PARTS,
               "std140, and no padding, which the backdrop would compare");
 static_assert(sizeof(struct kiln_draw_backdrop) <= 16384, "what every GL allows a uniform block");
 

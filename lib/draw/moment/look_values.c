@@ -345,7 +345,7 @@ void kiln_look_programs_sample(const struct kiln_scene *scene,
         const struct kiln_look *look = &scene->systems[i].look;
         const struct kiln_look_program *program = &programs[i];
         const struct value_clocks clocks =
-            value_clocks_at(time_s, random_system_key(scene->seed, i));
+            value_clocks_at(time_s, kiln_scene_derived(scene, i).random_key);
         if (program->count == 0)
             continue;
         find_own(scene, look, &own);

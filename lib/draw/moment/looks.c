@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "asset/atlas/blackbody.h"
+#include "scene/look_defaults.h"
 #include "shared/exact.h"
 
 static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
@@ -136,7 +137,7 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
             struct sampler sampler = {
                 .scene = scene,
                 .observer = &observer,
-                .clocks = value_clocks_at(time_s, random_system_key(scene->seed, i)),
+                .clocks = value_clocks_at(time_s, kiln_scene_derived(scene, i).random_key),
             };
             sampler.clocks.life = (float)k / (float)(KILN_LOOK_SAMPLES - 1);
             float4 texel[KILN_LOOK_ROWS];
@@ -209,7 +210,9 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
     const struct kiln_look *look = &scene->systems[index].look;
     struct kiln_draw_look made = {
         .derived = kiln_scene_derived(scene, index),
-        .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
+        .flags = {look->blend == KILN_BLEND_ADD,
+                  (look->random_start ? LOOK_RANDOM_START : 0) |
+                      (kiln_look_is_picture(look) ? LOOK_UNMIRRORED : 0),
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
         .form = {look->shape, look->facing, look->point_round,
                  look->shape == KILN_SHAPE_LINE ? look->line_to == KILN_LINE_PREVIOUS

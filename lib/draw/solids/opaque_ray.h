@@ -67,9 +67,11 @@ SIMD_ONCE void light_place(const struct kiln_ray_frame *frame, const struct visi
     const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
     sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
     const struct hit_light light = {light_without_sun(frame, &surface).irradiance, sunlit};
-    const struct ray_color lit = radiance(frame, &hit, place->direction, &light, &cached);
-    struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);
-    color->rgb = vf3_add(place->glow, shown);
+    const struct vf3 lit = radiance_before_haze(frame, &hit, &light);
+    struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit, hit.albedo), place->lit);
+    shown = vf3_add(place->glow, shown);
+    color->rgb =
+        behind_haze(frame, shown, place->depth, place->direction, visible->part > 0.0f, &cached);
     color->alpha = visible->part;
 }
 

@@ -44,9 +44,10 @@ static bool needs_shapes(const struct kiln_scene *scene)
 
 void kiln_geometry_defines(const struct kiln_scene *scene, struct kiln_text *defines)
 {
-    kiln_text_add(defines, "#define SHAPES %d\n%s%s%s%s", needs_shapes(scene) ? 1 : 0,
+    kiln_text_add(defines, "#define SHAPES %d\n%s%s%s%s%s", needs_shapes(scene) ? 1 : 0,
                   kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "",
                   kiln_lamp_shade_exists(scene) ? "#define LAMP_SHADE 1\n" : "",
+                  kiln_scene_has_haze(scene) ? "#define HAZE 1\n" : "",
                   kiln_scene_has_smoke(scene) ? "" : "#define NO_SMOKE 1\n",
                   kiln_scene_has_lamps(scene) ? "" : "#define NO_LAMPS 1\n");
     kiln_moment_gl_defines(scene, defines);

@@ -19,19 +19,20 @@ enum kiln_sprite_shade {
     KILN_SHADE_GLOW,  /* mask: base + slope times the cell's heat */
     KILN_SHADE_ALPHA, /* mask: base, where slope is 0 */
     KILN_SHADE_LIT,   /* mask: the same, plus light by the cell's normal */
-    KILN_SHADE_COLOR, /* the cell's colour times base */
+    KILN_SHADE_COLOR, /* the cell's colour times base, plus its alpha times slope if veiled */
     KILN_SHADE_PLAIN, /* base in a rectangle or a disc, antialiased over a pixel */
     KILN_SHADES,      /* number of shades */
 };
 
 enum {
-    KILN_SPRITE_DEEP = 1,    /* the sprite's depth differs between its pixels */
-    KILN_SPRITE_COVERS = 2,  /* its alpha covers sprites behind it */
-    KILN_SPRITE_DISC = 4,    /* KILN_SHADE_PLAIN: it is a disc, not a rectangle */
-    KILN_SPRITE_LITERAL = 8, /* it fades by the formula as printed: Heinz 2019, equation 3.3 */
-    KILN_SPRITE_MIXED = 16,  /* its cell is mixed beforehand, so that next_cell is not used */
-    KILN_SPRITE_EMITS = 32,  /* base or slope is not 0 */
-    KILN_SPRITE_FINE = 64,   /* its cells have no motion and are sampled in floats */
+    KILN_SPRITE_DEEP = 1,     /* the sprite's depth differs between its pixels */
+    KILN_SPRITE_COVERS = 2,   /* its alpha covers sprites behind it */
+    KILN_SPRITE_DISC = 4,     /* KILN_SHADE_PLAIN: it is a disc, not a rectangle */
+    KILN_SPRITE_LITERAL = 8,  /* it fades by the formula as printed: Heinz 2019, equation 3.3 */
+    KILN_SPRITE_MIXED = 16,   /* its cell is mixed beforehand, so that next_cell is not used */
+    KILN_SPRITE_EMITS = 32,   /* base or slope is not 0 */
+    KILN_SPRITE_FINE = 64,    /* its cells have no motion and are sampled in floats */
+    KILN_SPRITE_VEILED = 128, /* KILN_SHADE_COLOR: slope is haze, times the cell's alpha */
 };
 
 /* A sprite takes two lines of the cache. The sprites of a tile are far apart in memory, so that

@@ -91,7 +91,7 @@ static void choose_cells(struct sprite_lanes *p)
 {
     vi first = (vi)p->texture.c[0], count = (vi)p->texture.c[1];
     vf counted = vf_of(count), position = p->progress * p->cool.c[3] * (counted - 1.0f);
-    if (p->look->flags.y != 0)
+    if ((p->look->flags.y & LOOK_RANDOM_START) != 0)
         position += vu_unit(p->stream, RANDOM_CELL) * counted;
     position = vf_clamp(position, 0.0f, 1e6f);
     vf edge = edge_of(p->level);

@@ -2,6 +2,7 @@
  * particle looks like is computed by shared/billboard.h and its neighbours, which GL has, too; the
  * results are the same bits on every machine. */
 #include "draw/sprites/sprite_cells.h"
+#include "draw/sprites/sprite_haze.h"
 #include "draw/sprites/sprite_light.h"
 #include "draw/sprites/sprite_place.h"
 
@@ -49,6 +50,8 @@ static void turn_billboards(struct sprite_lanes *p)
     p->half_length = edge.half_length;
     if (p->look->form.x == 0 && p->look->form.w != 0)
         p->words[WORD_OF(opacity)] *= billboard_dimming(p->half_size, edge.half_length);
+    if ((p->look->flags.y & LOOK_UNMIRRORED) != 0)
+        side = vf_all(1.0f);
     p->plane = billboard_rotated(plane, edge, side);
 }
 
@@ -82,9 +85,29 @@ static void choose_shade(struct sprite_lanes *p)
                          vi_select(lit, vi_all(KILN_SHADE_LIT), vi_all(KILN_SHADE_GLOW)));
 }
 
+/* Returns whether the sprites cover what is behind them, or their alpha is summed. */
+SIMD bool cover(const struct sprite_lanes *p)
+{
+    return p->look->flags.x == 0 || p->pass->fire_covers;
+}
+
+/* Puts haze before the light of a channel: dims what the sprites emit and reflect, and adds the
+ * haze itself, which is as opaque as each place on them. */
+SIMD void veil(const struct sprite_lanes *p, const struct sprite_haze *haze, vf added, vf *base,
+               vf *slope)
+{
+    const vi colored = p->shade == KILN_SHADE_COLOR;
+    *slope = vf_select(colored, added, *slope * haze->clear);
+    *base = *base * haze->clear + vf_where(~colored, added);
+}
+
 static void color_sprites(struct sprite_lanes *p)
 {
     const vf zero = vf_all(0.0f);
+    const bool hazy = has_haze(p->pass->backdrop);
+    struct sprite_haze haze;
+    if (hazy)
+        haze = find_haze(p, cover(p));
     vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW;
     vi emits = vi_all(0), heated = vi_all(0);
     struct light_sum light;
@@ -100,6 +123,11 @@ static void color_sprites(struct sprite_lanes *p)
         vf flat = vf_max(channel->all + channel->along.z, zero) * albedo;
         vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
         vf slope = vf_where(lit | glows, hot - cool);
+        if (hazy) {
+            const vf added[3] = {haze.added.x, haze.added.y, haze.added.z};
+            veil(p, &haze, added[c], &base, &slope);
+            albedo *= haze.clear;
+        }
         heated |= slope != 0.0f;
         emits |= (base != 0.0f) | heated;
         p->words[WORD_OF(base) + c] = base;
@@ -112,6 +140,8 @@ static void color_sprites(struct sprite_lanes *p)
         p->extra[EXTRA_WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
     }
     p->flags |= emits & KILN_SPRITE_EMITS;
+    if (hazy && cover(p))
+        p->flags |= (p->shade == KILN_SHADE_COLOR) & KILN_SPRITE_VEILED;
     p->shade = vi_select(glows & ~heated, vi_all(KILN_SHADE_ALPHA), p->shade);
     const struct columns bloom = look_row(p, KILN_LOOK_BLOOM);
     for (size_t c = 0; c < 3; c++)
@@ -204,9 +234,8 @@ static_assert(WORD_OF(pitch) == WORD_OF(shade) && WORD_OF(pitch) == WORD_OF(flag
 
 static void finish_sprites(struct sprite_lanes *p)
 {
-    bool covers = p->look->flags.x == 0 || p->pass->fire_covers;
     p->flags |=
-        (covers ? KILN_SPRITE_COVERS : 0) | (p->look->flags.z != 0 ? KILN_SPRITE_LITERAL : 0);
+        (cover(p) ? KILN_SPRITE_COVERS : 0) | (p->look->flags.z != 0 ? KILN_SPRITE_LITERAL : 0);
     vi pitch = vi_all(0);
     if (p->look->form.x == 0)
         pitch = vi_of(p->words[WORD_OF(edge_u)]) + KILN_CELL_MARGIN;

@@ -128,8 +128,11 @@ SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *
         cell.c[c] = cell.c[c] * b->sampled + SAMPLED_ZERO;
         cell.c[c] *= cell.c[c];
     }
-    return (struct shaded){{cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2]},
-                           cell.c[3]};
+    struct shaded shaded = {
+        {cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2]}, cell.c[3]};
+    for (int c = 0; c < 3 && (s->flags & KILN_SPRITE_VEILED) != 0; c++)
+        shaded.rgb[c] += s->slope[c] * cell.c[3];
+    return shaded;
 }
 
 /* Shades pixels by their sampled channels, for any shade but plain. */

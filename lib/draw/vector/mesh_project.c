@@ -53,30 +53,30 @@ static void extend(struct extent *e, float4 frustum, float4 principal, float3 p)
 
 /* Returns where the line from a point in front of the eye to one that is not has the nearest depth
  * that is drawn. It takes doubles, since the coordinates of distant corners nearly cancel there. */
-static float3 where_nearest(float3 front, float3 behind)
+static float3 where_nearest(float3 front, float3 behind, float nearest)
 {
-    const double part =
-        -((double)front.z + (double)KILN_MESH_NEAREST) / ((double)behind.z - (double)front.z);
+    const double part = -((double)front.z + (double)nearest) / ((double)behind.z - (double)front.z);
     return (float3){(float)((double)front.x + ((double)behind.x - (double)front.x) * part),
                     (float)((double)front.y + ((double)behind.y - (double)front.y) * part),
-                    -KILN_MESH_NEAREST};
+                    -nearest};
 }
 
 /* Bounds the pixels that a triangle may touch; none if all of it is behind the eye. */
-static void find_bounds(float4 frustum, float4 principal, const float3 p[3],
+static void find_bounds(float4 frustum, float4 principal, float nearest, const float3 p[3],
                         struct kiln_projected_triangle *flat)
 {
     struct extent e = {{1e9f, 1e9f}, {-1e9f, -1e9f}};
     bool crosses_eye = false;
     for (int k = 0; k < 3; k++) {
         const float3 other = p[(k + 1) % 3];
-        const bool front = -p[k].z >= KILN_MESH_NEAREST;
+        const bool front = -p[k].z >= nearest;
         if (front)
             extend(&e, frustum, principal, p[k]);
-        if (front != (-other.z >= KILN_MESH_NEAREST)) {
+        if (front != (-other.z >= nearest)) {
             crosses_eye = true;
             extend(&e, frustum, principal,
-                   front ? where_nearest(p[k], other) : where_nearest(other, p[k]));
+                   front ? where_nearest(p[k], other, nearest)
+                         : where_nearest(other, p[k], nearest));
         }
     }
     if (e.low[0] > e.high[0])
@@ -88,7 +88,7 @@ static void find_bounds(float4 frustum, float4 principal, const float3 p[3],
     kiln_mesh_bound(e.low, e.high, frustum.z, flat);
 }
 
-bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal,
+bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal, float nearest,
                        struct kiln_projected_triangle *flat, float3 *face, float *volume)
 {
     *flat = (struct kiln_projected_triangle){.x = {0, 0}};
@@ -98,7 +98,7 @@ bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal,
     const float size2 = float3_dot(*face, *face) * float3_dot(corner[0], corner[0]);
     if (!(*volume * *volume > 1e-10f * size2))
         return false;
-    find_bounds(frustum, principal, corner, flat);
+    find_bounds(frustum, principal, nearest, corner, flat);
     const struct kiln_row_range rows = kiln_rows_of_triangle(flat, frustum.w);
     if (rows.from >= rows.to)
         return false;

@@ -25,7 +25,7 @@ layout(location = 2) out float depth;
 layout(location = 3) out vec2 uv;
 #endif
 
-const float NEAREST = 0.01; /* near plane, m */
+const float NEAREST = 0.01; /* near plane, m; a camera may have a nearer one */
 
 void main()
 {
@@ -42,5 +42,5 @@ void main()
 #ifdef PAINT
     uv = place_in_paint;
 #endif
-    gl_Position = vec4(place, depth - 2.0 * NEAREST, depth); /* the far plane is at infinity */
+    gl_Position = vec4(place, depth - 2.0 * min(NEAREST, view.eye.w), depth); /* the far plane is at infinity */
 }

@@ -9,6 +9,7 @@
  * none of: NO_SUN, NO_SMOKE (smoke that throws shadows), NO_LAMPS (lamps and light of fire),
  * NO_LAMP_SHADOWS, NO_RECTANGLES (lamps that are rectangles). */
 #include "draw/light/smoke_shadow.glsl"
+#include "shared/haze.h"
 #include "shared/lamp.h"
 #include "shared/light_cover.h"
 #include "shared/surface_light.h"
@@ -199,16 +200,30 @@ vec3 irradiance_without_sun(hit h, vec3 point)
     return light.irradiance;
 }
 
+/* Returns a colour with the haze in front of it. t: of the ray from the eye along the direction. */
+vec3 behind_haze(vec3 color, float t, vec3 direction)
+{
+    bool transparent = backdrop.counts.z != 0u;
+    float clear = transparent ? 1.0 : haze_clear(backdrop.floor_params.z, t, length(direction));
+    return mix(horizon(direction), color, clear);
+}
+
+/* Returns the light that a diffuse surface sends, without haze: radiance = albedo / pi *
+ * irradiance. */
+vec3 radiance_before_haze(hit h, vec3 irradiance, float sunlit)
+{
+    float facing = max(dot(h.normal, backdrop.sun_direction.xyz), 0.0);
+    return h.albedo / PI * (irradiance + backdrop.sun_color.rgb * facing * sunlit);
+}
+
 /* Returns the light that a surface sends along a ray, premultiplied, and its alpha. `irradiance` is
  * that of irradiance_without_sun. `sunlit` is the part of the sun, 0 to 1, that objects and smoke
- * let through. The surface is diffuse: radiance = albedo / pi * irradiance. */
+ * let through. */
 vec4 radiance(hit h, vec3 direction, vec3 irradiance, float sunlit)
 {
     bool transparent = backdrop.counts.z != 0u;
     if (h.surface < 0)
         return transparent ? vec4(0.0) : vec4(sky(direction), 1.0);
-    float facing = max(dot(h.normal, backdrop.sun_direction.xyz), 0.0);
-    vec3 color = h.albedo / PI * (irradiance + backdrop.sun_color.rgb * facing * sunlit);
-    float clear = transparent ? 1.0 : exp(-backdrop.floor_params.z * h.t * length(direction));
-    return vec4(mix(horizon(direction), color, clear), 1.0);
+    vec3 color = radiance_before_haze(h, irradiance, sunlit);
+    return vec4(behind_haze(color, h.t, direction), 1.0);
 }

@@ -59,8 +59,8 @@ void main()
     hit h = hit(t, 0, normal, albedo.rgb);
     float sunlit = sun_visibility(point + backdrop.sun_direction.xyz * outwards, normal) *
                    sunlight_through_smoke(point);
-    vec3 lit = radiance(h, direction, irradiance_without_sun(h, point), sunlit).rgb;
-    vec3 rgb = glow.rgb + mix(albedo.rgb, lit, albedo.a);
+    vec3 lit = radiance_before_haze(h, irradiance_without_sun(h, point), sunlit);
+    vec3 rgb = behind_haze(glow.rgb + mix(albedo.rgb, lit, albedo.a), t, direction);
 
     gl_FragDepth = 1.0 / (1.0 + t); /* near is 1, far is 0, as in solids_spheres.frag */
     out_color = vec4(rgb, 1.0) * glow.a;

@@ -102,8 +102,8 @@ void main()
     lit_middle = vec4(view.eye.xyz + view_to_world(sphere.xyz), 1.0);
     hit h = hit(t, 0, normal, reflected);
     float sunlit = sun_visibility(point, normal) * sunlight_through_smoke(point);
-    vec3 lit = radiance(h, direction, irradiance_without_sun(h, point), sunlit).rgb;
-    vec3 rgb = glow.rgb + mix(reflected, lit, albedo.a);
+    vec3 lit = radiance_before_haze(h, irradiance_without_sun(h, point), sunlit);
+    vec3 rgb = behind_haze(glow.rgb + mix(reflected, lit, albedo.a), t, direction);
 
     gl_SampleMask[0] = mask;
     /* The depth is 1 at the eye and 0 far away, since floats are most precise near 0.

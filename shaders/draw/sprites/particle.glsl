@@ -21,7 +21,8 @@
  * to the picture, else as 0. It defines SUN_SHADE and LAMP_SHADE only for a scene whose backdrop
  * shades particles from the sun, or from lamps (kiln_geometry_defines in
  * lib/draw/sprites/particles_geometry.c). Other scenes get a faster shader without that code. It
- * defines NO_SMOKE for a scene without smoke that throws shadows, and NO_LAMPS for one without
+ * defines HAZE for a scene that has haze; then the shader declares the uniform additive_alpha of
+ * shade.glsl. It defines NO_SMOKE for a scene without smoke that throws shadows, and NO_LAMPS for one without
  * lamps and light of fire.
  *
  * tests/support/true_sprite.h is the reference implementation: tests compare every technique with
@@ -29,6 +30,10 @@
 #include "shared/billboard.h"
 #include "shared/billboard_light.h"
 #include "shared/billboard_place.h"
+#ifdef HAZE
+#include "shared/haze.h"
+#include "shared/surface_light.h"
+#endif
 
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
@@ -125,6 +130,40 @@ vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream
     return vec4(base + mod(first, cells), base + mod(first + 1.0, cells), position - first, level);
 }
 
+#ifdef HAZE
+
+/* Returns the colour of haze in a level direction. */
+vec3 haze_toward(vec3 level)
+{
+    vec3 color = backdrop.sky_horizon.rgb;
+    if (backdrop.counts.x != 0u) {
+        float place = haze_place(level);
+        int low = int(place), parts = KILN_HAZE_PARTS - 1;
+        color = mix(backdrop.haze[low & parts].rgb, backdrop.haze[(low + 1) & parts].rgb,
+                    place - float(low));
+    }
+    if (backdrop.sky_horizon.w <= 0.0)
+        return color;
+    float glow = sky_glow(level, backdrop.sun_direction, backdrop.floor_params.w);
+    return color + backdrop.sun_color.rgb * (backdrop.sky_horizon.w * glow);
+}
+
+/* Puts haze before the particle, all of which is as far away as its middle: dims what it emits and
+ * reflects, and adds the haze itself, which is as opaque as each place on the particle. For cells
+ * of colour, that is in particle.cool, which they do not need. */
+void veil_particle(vec3 position, bool is_colored)
+{
+    vec3 way = position - view.eye.xyz;
+    float clear = haze_clear(backdrop.floor_params.z, 1.0, length(way));
+    bool covers = particle.hot.a <= 0.0 || additive_alpha > 0.0;
+    vec3 added = covers ? haze_toward(haze_level(way)) * (1.0 - clear) : vec3(0.0);
+    particle.color.rgb *= clear;
+    particle.hot.rgb = particle.hot.rgb * clear + (is_colored ? vec3(0.0) : added);
+    particle.cool.rgb = is_colored ? added : particle.cool.rgb * clear + added;
+}
+
+#endif
+
 #if SHAPES
 
 /* Turns the particle into a point or a line, which has no texture. */
@@ -188,7 +227,8 @@ void make_billboard(uint entry)
     billboard_size size = billboard_size(half_size, edge.half_length, 1.0);
     if (view.clock.w < 1.0 && form.x == 0u) /* a billboard in a picture smaller than the frame */
         size = billboard_widened(size.half_width, size.half_length, pixels_per_m);
-    plane = billboard_rotated(plane, edge, side);
+    bool mirrors = (looks[system].flags.y & LOOK_UNMIRRORED) == 0u;
+    plane = billboard_rotated(plane, edge, mirrors ? side : 1.0);
     right = vec4(plane.right * size.half_width, 0.0);
     up = vec4(plane.up * size.half_length, 0.0);
     half_size = size.half_width;
@@ -202,7 +242,7 @@ void make_billboard(uint entry)
     vec4 bloom = look_at(system, KILN_LOOK_BLOOM, life);
     particle.bloom = vec4(bloom.rgb, uintBitsToFloat(texture_cells.w));
 
-    particle.cells = choose_cells(texture_cells, life * cool.w, looks[system].flags.y != 0u,
+    particle.cells = choose_cells(texture_cells, life * cool.w, (looks[system].flags.y & LOOK_RANDOM_START) != 0u,
                                   stream, 2.0 * pixels_per_m * vec2(half_size, size.half_length));
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
@@ -212,5 +252,8 @@ void make_billboard(uint entry)
 #if SHAPES
     if (form.x != 0u)
         make_plain(form, turn.zw * scale * view.clock.w, 2.0 * half_size * pixels_per_m, moving, shape.y);
+#endif
+#ifdef HAZE
+    veil_particle(position, form.x == 0u && texture_cells.z == KILN_CELL_COLOR);
 #endif
 }

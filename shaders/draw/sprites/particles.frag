@@ -11,6 +11,7 @@
  * and fades soft particles near surfaces by it. */
 // variant: SHAPES=0
 // variant: SHAPES=1
+// variant: SHAPES=0 HAZE=1
 #include "shared/draw_layout.h"
 
 layout(location = 0) out vec4 out_color;

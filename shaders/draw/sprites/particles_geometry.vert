@@ -9,6 +9,7 @@
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
 // variant: SHAPES=1 LOOK_VALUES=1
+// variant: SHAPES=1 HAZE=1
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -19,6 +20,10 @@ layout(location = 0) out vec4 center;
 layout(location = 1) out vec4 right;
 layout(location = 2) out vec4 up;
 layout(location = 3) out billboard particle;
+
+#ifdef HAZE
+uniform float additive_alpha;
+#endif
 
 #include "draw/sprites/particle.glsl"
 

@@ -5,6 +5,7 @@
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
 // variant: SHAPES=1 LOOK_VALUES=1
+// variant: SHAPES=1 HAZE=1
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -13,6 +14,10 @@
 
 vec4 center, right, up;
 billboard particle;
+
+#ifdef HAZE
+uniform float additive_alpha;
+#endif
 
 #include "draw/sprites/particle.glsl"
 

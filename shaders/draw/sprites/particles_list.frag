@@ -7,6 +7,7 @@
  * fragments. So whether a fragment is kept, and in how many pieces, must not depend on `writes`. */
 // variant: SHAPES=0
 // variant: SHAPES=1
+// variant: SHAPES=0 HAZE=1
 #include "shared/draw_layout.h"
 
 layout(early_fragment_tests) in;

@@ -13,6 +13,7 @@
  * them. */
 // variant: SHAPES=0 TILED_EDGE=16 TILED_ROWS=16
 // variant: SHAPES=1 TILED_EDGE=8 TILED_ROWS=2
+// variant: SHAPES=0 HAZE=1 TILED_EDGE=16 TILED_ROWS=16
 #include "shared/draw_layout.h"
 
 #include "draw/sprites/tiled.glsl"

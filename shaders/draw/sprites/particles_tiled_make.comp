@@ -6,6 +6,7 @@
 // variant: SHAPES=1 TILED_EDGE=16
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1 TILED_EDGE=16
 // variant: SHAPES=1 LOOK_VALUES=1 TILED_EDGE=16
+// variant: SHAPES=1 HAZE=1 TILED_EDGE=16
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -72,6 +73,10 @@ float most_added()
     vec3 light = particle.light_0.rgb + abs(particle.light_x.rgb) + abs(particle.light_y.rgb) +
                  abs(particle.light_z.rgb);
     vec3 rgb = max(particle.hot.rgb, particle.cool.rgb) + particle.color.rgb * max(light, 0.0);
+#ifdef HAZE
+    if (uint(particle.depth.y) == KILN_CELL_COLOR)
+        rgb += particle.cool.rgb;
+#endif
     rgb *= max(particle.bloom.rgb, vec3(1.0));
     float most = max(max(rgb.r, rgb.g), rgb.b);
     return particle.hot.a > 0.0 && additive_alpha == 0.0 ? -most : max(most, 1.0);

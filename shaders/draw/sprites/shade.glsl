@@ -4,7 +4,8 @@
  * Two adjacent cells of the atlas are mixed (Heinz 2019, 3.2.4, equation 3.2). The result is lit,
  * the light that the particle emits is added, and the sum fades where the billboard comes near the
  * scene (Heinz 2019, 3.2.6, equation 3.3). The bloom target gets the same colour times
- * quad.bloom.rgb (Heinz 2019, 3.2.5). Colours are premultiplied. */
+ * quad.bloom.rgb (Heinz 2019, 3.2.5). Colours are premultiplied. With HAZE, quad.cool of colour
+ * cells is the haze before them (particle.glsl). */
 #include "shared/billboard_place.h"
 
 layout(binding = KILN_UNIT_ATLAS) uniform sampler2DArray atlas;
@@ -100,7 +101,11 @@ void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, ou
     if (is_mask)
         rgb = (rgb + reflected) * alpha;
     else
+#ifdef HAZE
+        rgb = cell.rgb * (rgb + reflected) + quad.cool.rgb * alpha;
+#else
         rgb = cell.rgb * (rgb + reflected);
+#endif
 
     /* The second argument of min keeps alpha * fade at 1 or below. */
     float fade = min(quad.color.a * soft_factor(quad, depth, scene), 1.0 / max(alpha, 1e-6));

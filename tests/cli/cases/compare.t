@@ -360,7 +360,7 @@ $ for kind in mov avi mkv; do
 1|mkv: 0
 1|mkv cut short: 3
 $ kiln compare v_00.png v.mp4 --tolerance flip.mean=0.2 | grep -v "  [a-z]*[.]" | head -12
-1|  v_00.png                 same                0.032378      16 %
+1|  v_00.png                 same                0.032724      16 %
 1|  1                        extra       only in the test
 1|  2                        extra       only in the test
 1|  3                        extra       only in the test
@@ -390,10 +390,10 @@ $ kiln compare -q x.exr y.exr --layer fire
 $ kiln compare -q x.exr y.exr --layer depth
 $ kiln compare x.exr y.exr | head -8
 1|  layer                    verdict
-1|  beauty                   different   flip.p99 0.4744 of 0.1
+1|  beauty                   different   flip.p99 0.45895 of 0.1
 1|  bloom                    same        not one value differs
 1|  depth                    same        not one number differs
-1|  fire                     different   flip.mean 0.090127 of 0.01, flip.p99 0.99518 of 0.1
+1|  fire                     different   flip.mean 0.090145 of 0.01, flip.p99 0.99518 of 0.1
 1|  smoke                    same        not one value differs
 1|y.exr against x.exr: different
 1|  metric                  value      limit
@@ -415,9 +415,9 @@ $ mkdir exr_a exr_b; cp x.exr exr_a/1.exr; cp x.exr exr_b/1.exr; cp x.exr exr_a/
 > kiln compare exr_a exr_b | head -5
 1|  frame                    verdict            flip.mean  of limit
 1|  1.exr                    same                       0       0 %
-1|  2.exr                    different           0.090127     995 %
-1|    layer beauty: flip.p99 0.4744 of 0.1
-1|    layer fire: flip.mean 0.090127 of 0.01, flip.p99 0.99518 of 0.1
+1|  2.exr                    different           0.090145     995 %
+1|    layer beauty: flip.p99 0.45895 of 0.1
+1|    layer fire: flip.mean 0.090145 of 0.01, flip.p99 0.99518 of 0.1
 $ kiln compare x.exr y.exr --data-limit -1
 2|kiln: compare: --data-limit: found '-1', expected a number from 0 to 1e+30
 = 2

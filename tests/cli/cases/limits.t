@@ -90,16 +90,16 @@ $ ls -A | grep -e huge -e webm
 
 Nor is more written than it may.
 
-$ kiln render scenes/tiny.yaml -q -o out/%02d.png --limits output=20kB --threads 1; find out -size 0; ls -A out | grep tmp
-2|kiln: out/10.png: 19.54 KiB of output, and the limit `output` is 19.53 KiB
+$ kiln render scenes/tiny.yaml -q -o out/%02d.png --limits output=19kB --threads 1; find out -size 0; ls -A out | grep tmp
+2|kiln: out/09.png: 19.25 KiB of output, and the limit `output` is 18.55 KiB
 = 1
 $ kiln render scenes/tiny.yaml -q -o out.mp4 --limits output=3kB; kiln render scenes/tiny.yaml -q -o - --limits output=10kB | wc -c
 1|7002
-2|kiln: out.mp4: 3.877 KiB of output, and the limit `output` is 2.93 KiB
+2|kiln: out.mp4: 3.965 KiB of output, and the limit `output` is 2.93 KiB
 2|kiln: standard output: 10.22 KiB of output, and the limit `output` is 9.766 KiB
 $ kiln render scenes/tiny.yaml -q -o out.gif --resume --limits output=3kB; kiln encode out -o out.mkv --limits output=1kB
 2|kiln: out.gif.parts/00000.part: 270.9 KiB of output, and the limit `output` is 2.93 KiB
-2|kiln: out.mkv: 5.743 KiB of output, and the limit `output` is 1000 bytes
+2|kiln: out.mkv: 5.744 KiB of output, and the limit `output` is 1000 bytes
 = 8
 $ ls -d out*
 1|out

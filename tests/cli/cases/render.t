@@ -44,6 +44,22 @@ $ for threads in 1 2 5; do kiln render scenes/tiny.yaml -q --frames 3 -o threads
 $ kiln render scenes/tiny.yaml -q --frames 3 -o i.png --fps 30/1 --size 64x36 && cmp tiny.png i.png
 $ cd scenes && cp tiny.yaml ./--odd.yaml && kiln render -q --frames 3 -o ../h.png -- --odd.yaml && cmp ../tiny.png ../h.png
 
+A rate of the command line changes the length of the clip, which is said.
+
+$ kiln render scenes/tiny.yaml --frames 3 -o fast.png --fps 60 --progress none
+1|device: <device>
+1|scenes/tiny.yaml: 24 frames at 60 a second last 0.4 s
+1|fast.png: 1 frame in <s> s
+$ kiln render scenes/tiny.yaml --frames 3 -o slow.png --set output.fps=30000/1001 --set simulation.rate=60000/1001 --progress none
+1|device: <device>
+1|scenes/tiny.yaml: 24 frames at 29.97 a second last 0.8008 s
+1|slow.png: 1 frame in <s> s
+$ kiln render scenes/tiny.yaml --frames 3 -o long.png --fps 60 --set output.frames=48 --progress none
+1|device: <device>
+1|long.png: 1 frame in <s> s
+$ kiln check scenes/tiny.yaml --fps 15 | tail -n 1
+1|# scenes/tiny.yaml: 24 frames at 15 a second last 1.6 s
+
 Options of the formats.
 
 $ kiln render scenes/tiny.yaml -q --frames 3 -o float.exr --exr-bits 32 && [ $(stat -c %s float.exr) -gt $(stat -c %s tiny.exr) ]
