@@ -138,6 +138,12 @@ struct kiln_scene_params {
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_budget *budget;       /* the job's; must outlive the scene; NULL: no limits */
     struct kiln_log log; /* gets warnings, which begin with the scene's file and line */
+    /* Files with values of the scene's parameters, YAML or JSON: {length: 3 s, brand: "#e61e28"}.
+     * They are applied in order, before overrides "params.NAME=VALUE". */
+    const char *const *params_files;
+    size_t params_file_count;
+    bool
+        keep_origins; /* for kiln_scene_print_origins, which takes the memory of the scene's text */
 };
 KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 

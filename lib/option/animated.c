@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "option/color.h"
+#include "option/expression.h"
 
 bool kiln_node_is_animated(const struct kiln_node *node)
 {
@@ -55,7 +56,7 @@ static bool read_plain(struct kiln_reader *reader, const struct kiln_option *opt
     if (node->kind == KILN_NODE_SCALAR && option->type == &kiln_type_color) {
         if (kiln_color_parse(node->text, out))
             return true;
-        if (is_word(node))
+        if (is_word(node) && !kiln_expression_is(node))
             return color_error(reader, option, node);
         if (!kiln_read_float(reader, &number, node, out))
             return false;
@@ -157,7 +158,8 @@ const struct kiln_option kiln_option_time = {.name = "time",
                                              .type = &kiln_type_number,
                                              .dimension = KILN_SECONDS,
                                              .min = -100000,
-                                             .max = 1000000};
+                                             .max = 1000000,
+                                             .is_of_clip = true};
 static const struct kiln_option life_axis = {
     .name = "life", .type = &kiln_type_number, .dimension = KILN_FRACTION, .min = 0, .max = 1};
 

@@ -17,7 +17,7 @@ void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *
                         const void *base)
 {
     for (const struct kiln_option *row = members; row->name; row++) {
-        if (!kiln_print_wants(printer, row, base))
+        if (row->is_unprinted || !kiln_print_wants(printer, row, base))
             continue;
         kiln_print_key(printer, row->name);
         row->type->print(printer, row, (const char *)base + row->offset);

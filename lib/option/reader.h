@@ -6,6 +6,7 @@
 #include "option/option.h"
 
 struct kiln_default; /* holds the tree of a default */
+struct kiln_params;
 
 /* The caller sets the members above the blank line; all others are 0 at the start. */
 struct kiln_reader {
@@ -15,6 +16,9 @@ struct kiln_reader {
     struct kiln_error *error;
     const struct kiln_log *log; /* gets warnings; NULL: nobody does */
     void *target; /* the struct that the whole table fills, for types that need other parts of it */
+    uint32_t *copies;           /* counts the nodes that `use` and parameters copy; NULL: none do */
+    struct kiln_params *params; /* that expressions may name; NULL: none */
+    double clip_s;              /* length of the clip, for times in "%"; 0: it is not known */
 
     char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */
     size_t path_length;

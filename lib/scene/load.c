@@ -15,10 +15,10 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/sized.h"
-#include "option/override.h"
 #include "scene/asset_path.h"
 #include "scene/mesh_notes.h"
 #include "scene/place.h"
+#include "scene/resolve.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
 #include "scene/work.h"
@@ -89,20 +89,19 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
     return ok || kiln_error_no_memory(error, "reading a scene");
 }
 
-static bool build(struct kiln_reader *reader, const char *text, size_t size,
-                  const struct kiln_scene_params *params, kiln_scene_estimate *estimate)
+static bool build(struct kiln_reader *reader, const char *text,
+                  const struct kiln_scene_source *source, kiln_scene_estimate *estimate)
 {
+    const struct kiln_scene_params *params = source->params;
     struct kiln_scene *scene = kiln_reader_scene(reader);
     struct kiln_node *root =
-        kiln_node_parse(reader->scratch, text, size, reader->origin, reader->error);
+        kiln_node_parse(reader->scratch, text, source->size, reader->origin, reader->error);
     if (!root)
         return false;
     if (root->kind != KILN_NODE_MAP)
         return kiln_reader_expected(reader, root, "a mapping of keys");
-    for (size_t i = 0; i < params->override_count; i++) {
-        if (!kiln_override(reader, kiln_options_root, root, params->overrides[i]))
-            return false;
-    }
+    if (!kiln_scene_resolve(reader, root, source))
+        return false;
     const struct kiln_loader_params loading = {.root = scene->asset_root,
                                                .cancel = params->cancel,
                                                .stop = params->stop,
@@ -133,14 +132,8 @@ static void blame_limit(const struct kiln_scene *scene, struct kiln_error *error
         kiln_error_set(error, KILN_OVER_LIMIT, "loading %s: %s", scene->name, limit.message);
 }
 
-/* The file that the text of a scene was read from. */
-struct origin_file {
-    const char *path; /* relative paths of the scene start in its folder */
-    const struct stat *status;
-};
-
 /* Lists the scene's own file, which another file may have replaced under its name by now. */
-static bool add_own_file(struct kiln_scene *scene, const struct origin_file *file)
+static bool add_own_file(struct kiln_scene *scene, const struct kiln_scene_source *file)
 {
     if (!kiln_scene_add_file(scene, scene->name, "the scene"))
         return false;
@@ -152,12 +145,12 @@ static bool add_own_file(struct kiln_scene *scene, const struct origin_file *fil
     return true;
 }
 
-/* file: NULL for a scene that is no file. */
-static struct kiln_scene *create(const char *text, size_t size, const char *name,
-                                 const struct origin_file *file,
-                                 const struct kiln_scene_params *params,
+static struct kiln_scene *create(const char *text, const char *name,
+                                 const struct kiln_scene_source *source,
                                  kiln_scene_estimate *estimate, struct kiln_error *error)
 {
+    const struct kiln_scene_params *params = source->params;
+    uint32_t copies = 0;
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
     const double before_s = kiln_clock_cpu_seconds();
@@ -166,22 +159,23 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     if (!scratch || !scene || !name_copy) {
         kiln_error_no_memory(error, "reading a scene");
     } else {
-        const struct kiln_origin origin = kiln_scene_origin(name_copy);
+        struct kiln_origin origin = kiln_scene_origin(name_copy);
+        origin.copies = &copies;
         struct kiln_reader reader = {.origin = &origin,
                                      .arena = arena,
                                      .scratch = scratch,
                                      .error = error,
                                      .log = &params->log,
-                                     .target = scene};
+                                     .target = scene,
+                                     .copies = &copies};
         kiln_handle_mark(&scene->handle, KILN_HANDLE_SCENE);
         scene->arena = arena;
         scene->name = name_copy;
         scene->budget = params->budget;
-        scene->asset_root =
-            kiln_asset_root(arena, params->asset_root, file ? file->path : NULL, error);
+        scene->asset_root = kiln_asset_root(arena, params->asset_root, source->path, error);
         ok = scene->asset_root &&
-             (!file || add_own_file(scene, file) || kiln_reader_out_of_memory(&reader)) &&
-             build(&reader, text, size, params, estimate);
+             (!source->path || add_own_file(scene, source) || kiln_reader_out_of_memory(&reader)) &&
+             build(&reader, text, source, estimate);
         kiln_loader_stop_counting(scene->loader, params->budget);
         scene->loading_cpu_s = kiln_clock_cpu_seconds() - before_s;
     }
@@ -215,8 +209,8 @@ struct kiln_scene *kiln_scene_load_with(const char *path, const struct kiln_scen
     close(file);
     if (!text)
         return NULL;
-    const struct origin_file origin = {path, &status};
-    struct kiln_scene *scene = create(text, size, path, &origin, &params, estimate, error);
+    const struct kiln_scene_source source = {path, &status, size, &params};
+    struct kiln_scene *scene = create(text, path, &source, estimate, error);
     free(text);
     return scene;
 }
@@ -241,7 +235,8 @@ struct kiln_scene *kiln_scene_parse_with(const char *text, size_t size, const ch
                        "%s: the scene file has %zu bytes; at most %d are allowed", name, size,
                        KILN_MAX_SCENE_SIZE);
     else
-        scene = create(copy, size, name, NULL, &params, estimate, error);
+        scene = create(copy, name, &(struct kiln_scene_source){NULL, NULL, size, &params}, estimate,
+                       error);
     free(copy);
     return scene;
 }

@@ -410,7 +410,9 @@ PUBLIC_TABLE(kiln_options_backdrop) = {
     GROUP(LOOK, "sun", sun, "The sun, the one light with a shadow."),
     VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
           "How fast, per metre of distance, the floor fades into the horizon."),
-    LIST(MOTION, "objects", objects, object, object_count, "[]", "Objects of the scene."),
-    LIST(LOOK, "lights", lights, light, light_count, "[]", "Lights besides the sun."),
+    NAMED_LIST(MOTION, "objects", objects, object, object_count, "[]",
+               "Objects of the scene. An entry of a mapping may `use` another one."),
+    NAMED_LIST(LOOK, "lights", lights, light, light_count, "[]",
+               "Lights besides the sun. An entry of a mapping may `use` another one."),
     END,
 };

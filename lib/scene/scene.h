@@ -331,6 +331,7 @@ struct kiln_object_paint {
 
 /* Values have the clock constant or time. */
 struct kiln_object {
+    const char *name; /* NULL for an entry of a list */
     enum kiln_object_kind kind;
     /* m; mesh: place of its file's origin; terrain: middle and lowest height, constant */
     struct kiln_value3 center;
@@ -367,6 +368,7 @@ struct kiln_object {
 enum kiln_light_kind { KILN_LIGHT_POINT, KILN_LIGHT_SPOT, KILN_LIGHT_RECTANGLE };
 
 struct kiln_light {
+    const char *name; /* NULL for an entry of a list */
     enum kiln_light_kind kind;
     struct kiln_value3 position; /* of the centre, m */
     /* Radiance: of a white surface 1 m in front of a point or a spot; of a rectangle itself. */
