@@ -142,8 +142,7 @@ struct kiln_scene_params {
      * They are applied in order, before overrides "params.NAME=VALUE". */
     const char *const *params_files;
     size_t params_file_count;
-    bool
-        keep_origins; /* for kiln_scene_print_origins, which takes the memory of the scene's text */
+    bool keep_origins; /* for kiln_scene_print_origins; takes the memory of the scene's text */
 };
 KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 
@@ -562,6 +561,7 @@ KILN_API bool kiln_techniques_need_gl(const char *const *techniques, size_t coun
 #include "kiln_compare.h"
 #include "kiln_job.h"
 #include "kiln_limits.h"
+#include "kiln_params.h"
 #include "kiln_sandbox.h"
 
 #endif

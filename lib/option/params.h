@@ -45,6 +45,11 @@ bool kiln_params_set(struct kiln_reader *reader, const char *name, const struct 
 /* Checks all values against their kinds and ranges. */
 bool kiln_params_check(struct kiln_reader *reader);
 
+/* Writes a value of a parameter as JSON: a number in the parameter's unit, but an angle as a text
+ * with its unit. The value has been checked. */
+bool kiln_params_write_json(struct kiln_reader *reader, const struct kiln_param *param,
+                            const struct kiln_node *value, struct kiln_text *out);
+
 /* Replaces each scalar `$name` of a tree by the parameter's value, and `$$x` by the text `$x`. */
 bool kiln_params_replace(struct kiln_reader *reader, struct kiln_node *root);
 

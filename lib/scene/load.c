@@ -102,6 +102,7 @@ static bool build(struct kiln_reader *reader, const char *text,
         return kiln_reader_expected(reader, root, "a mapping of keys");
     if (!kiln_scene_resolve(reader, root, source))
         return false;
+    scene->tree = params->keep_origins ? root : NULL;
     const struct kiln_loader_params loading = {.root = scene->asset_root,
                                                .cancel = params->cancel,
                                                .stop = params->stop,
@@ -156,12 +157,13 @@ static struct kiln_scene *create(const char *text, const char *name,
     const double before_s = kiln_clock_cpu_seconds();
     char *name_copy = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
-    if (!scratch || !scene || !name_copy) {
+    struct kiln_origin *origin = scratch ? kiln_arena_alloc(scratch, 1, sizeof *origin) : NULL;
+    if (!origin || !scene || !name_copy) {
         kiln_error_no_memory(error, "reading a scene");
     } else {
-        struct kiln_origin origin = kiln_scene_origin(name_copy);
-        origin.copies = &copies;
-        struct kiln_reader reader = {.origin = &origin,
+        *origin = kiln_scene_origin(name_copy);
+        origin->copies = &copies;
+        struct kiln_reader reader = {.origin = origin,
                                      .arena = arena,
                                      .scratch = scratch,
                                      .error = error,
@@ -179,7 +181,10 @@ static struct kiln_scene *create(const char *text, const char *name,
         kiln_loader_stop_counting(scene->loader, params->budget);
         scene->loading_cpu_s = kiln_clock_cpu_seconds() - before_s;
     }
-    kiln_arena_destroy(&scratch);
+    if (ok && scene->tree)
+        scene->tree_arena = scratch;
+    else
+        kiln_arena_destroy(&scratch);
     if (!ok && scene) {
         blame_limit(scene, error);
         kiln_mesh_library_destroy(&scene->meshes);

@@ -19,6 +19,7 @@
 #include "option/params.h"
 #include "option/use.h"
 #include "scene/asset_path.h"
+#include "scene/params.h"
 #include "scene/place.h"
 
 /* What the callbacks of includes know. */
@@ -257,7 +258,7 @@ static bool read_params(struct kiln_reader *reader, struct kiln_node *root,
         if (is_of_param(params->overrides[i]) && !set_param(reader, params->overrides[i]))
             return false;
     }
-    return kiln_params_check(reader);
+    return kiln_params_check(reader) && kiln_scene_keep_params(reader);
 }
 
 /* ---- all ------------------------------------------------------------------------------------- */

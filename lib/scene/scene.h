@@ -447,6 +447,10 @@ struct kiln_scene {
     struct kiln_mesh_library *meshes; /* owns the meshes of all objects and looks */
     struct kiln_budget *budget;       /* limits of kiln_scene_params */
     struct kiln_loader *loader;       /* opens the files below the asset root; owned by the scene */
+    const struct kiln_scene_param *params; /* that the scene declares */
+    size_t param_count;
+    struct kiln_arena *tree_arena; /* of the tree below; NULL: no tree is kept */
+    const struct kiln_node *tree;  /* what the options were read from, for their origins */
 
     uint32_t format_version; /* always 1 */
     uint32_t seed;
@@ -497,6 +501,9 @@ bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_
  * frees; false when memory is short. parts: bits of enum kiln_scene_part; only rows of these parts
  * are printed; 0: all rows. */
 bool kiln_print_scene(const struct kiln_scene *scene, unsigned parts, struct kiln_text *text);
+
+/* Does the same with the place of each line behind it, as kiln_scene_print_origins does. */
+bool kiln_print_scene_origins(const struct kiln_scene *scene, struct kiln_text *text);
 
 /* Returns the clip time in seconds at the end of a step. Steps count from 1; 0 is the start of the
  * run. The division is IEEE's, so every host gets the same float. */
