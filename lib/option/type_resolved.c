@@ -1,13 +1,21 @@
 /* Implements the types of the keys that are resolved before the rows of a table are read: include,
  * use and params. The reader takes these keys out of the tree, so the types read nothing; they
  * describe the keys for people and editors. */
+#include <string.h>
+
 #include "option/params.h"
 #include "option/printer.h"
 #include "option/schema.h"
 
-void kiln_node_write(const struct kiln_node *node, struct kiln_text *out)
+/* Returns whether a scalar needs quotes in a list or mapping of one line. */
+static bool needs_quotes(const struct kiln_node *node, bool is_inside)
 {
-    if (node->kind == KILN_NODE_SCALAR && (node->quoted || *node->text == '\0')) {
+    return node->quoted || *node->text == '\0' || (is_inside && strpbrk(node->text, ",[]{}"));
+}
+
+static void write_node(const struct kiln_node *node, bool is_inside, struct kiln_text *out)
+{
+    if (node->kind == KILN_NODE_SCALAR && needs_quotes(node, is_inside)) {
         kiln_text_add_json(out, node->text);
         return;
     }
@@ -20,9 +28,14 @@ void kiln_node_write(const struct kiln_node *node, struct kiln_text *out)
         kiln_text_add(out, "%s", child == node->first ? "" : ", ");
         if (child->key)
             kiln_text_add(out, "%s: ", child->key->text);
-        kiln_node_write(child, out);
+        write_node(child, true, out);
     }
     kiln_text_add(out, "%s", node->kind == KILN_NODE_LIST ? "]" : "}");
+}
+
+void kiln_node_write(const struct kiln_node *node, struct kiln_text *out)
+{
+    write_node(node, false, out);
 }
 
 /* Refuses a key that --set gives: when it is read, all such keys have been resolved. */
