@@ -141,8 +141,8 @@ struct kiln_scene_params {
     /* Files with values of the scene's parameters, YAML or JSON: {length: 3 s, brand: "#e61e28"}.
      * They are applied in order, before overrides "params.NAME=VALUE". */
     const char *const *params_files;
-    size_t params_file_count;
     bool keep_origins; /* for kiln_scene_print_origins; takes the memory of the scene's text */
+    size_t params_file_count;
 };
 KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 
