@@ -246,17 +246,52 @@ struct kiln_scene *kiln_scene_parse_with(const char *text, size_t size, const ch
     return scene;
 }
 
+/* Reads the tree of a scene file and its includes, for a caller that needs no valid scene. The
+ * scene only has what includes need. NULL with an error. */
+static struct kiln_node *read_tree(struct kiln_reader *reader, const char *path,
+                                   struct kiln_error *error)
+{
+    size_t size = 0;
+    struct stat status;
+    const struct kiln_scene_params params = kiln_scene_defaults();
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    scene->asset_root = kiln_asset_root(reader->arena, NULL, path, error);
+    const int file = scene->asset_root ? kiln_scene_open(path, NULL, error) : -1;
+    char *text = file >= 0 ? kiln_text_file_take(file, path, "a scene file", KILN_MAX_SCENE_SIZE,
+                                                 &size, &status, error)
+                           : NULL;
+    if (file >= 0)
+        close(file);
+    const struct kiln_scene_source source = {path, &status, size, &params};
+    struct kiln_node *root =
+        text ? kiln_node_parse(reader->scratch, text, size, reader->origin, error) : NULL;
+    free(text);
+    if (!root || root->kind != KILN_NODE_MAP)
+        return root;
+    return kiln_scene_include(reader, root, &source) ? root : NULL;
+}
+
 bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
                               void *user, struct kiln_error *error)
 {
-    size_t size = 0;
-    char *text = kiln_text_file_read(path, "a scene file", KILN_MAX_SCENE_SIZE, &size, error);
-    struct kiln_arena *arena = text ? kiln_arena_create() : NULL;
-    const struct kiln_origin origin = kiln_scene_origin(path);
-    const struct kiln_node *root =
-        arena ? kiln_node_parse(arena, text, size, &origin, error) : NULL;
-    if (text && !arena)
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_scene *scene = calloc(1, sizeof *scene);
+    uint32_t copies = 0;
+    struct kiln_origin origin = kiln_scene_origin(path);
+    origin.copies = &copies;
+    struct kiln_reader reader = {.origin = &origin,
+                                 .arena = arena,
+                                 .scratch = arena,
+                                 .error = error,
+                                 .target = scene,
+                                 .copies = &copies};
+    const struct kiln_node *root = NULL;
+    if (!arena || !scene) {
         kiln_error_no_memory(error, "reading a scene");
+    } else {
+        scene->arena = arena;
+        root = read_tree(&reader, path, error);
+    }
     const struct kiln_node *systems = root ? kiln_node_entry(root, "systems") : NULL;
     if (systems && systems->kind == KILN_NODE_MAP) {
         for (const struct kiln_node *system = systems->first; system; system = system->next) {
@@ -266,6 +301,6 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
     }
     bool ok = root != NULL;
     kiln_arena_destroy(&arena);
-    free(text);
+    free(scene);
     return ok;
 }
