@@ -24,11 +24,20 @@ void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *
     }
 }
 
+void kiln_print_quoted(struct kiln_printer *printer, const char *text)
+{
+    struct kiln_text doubled = {0};
+    kiln_text_add(&doubled, "%s%s", *text == '$' ? "$" : "", text);
+    kiln_text_add_json(&printer->text, doubled.data ? doubled.data : "");
+    printer->text.failed |= doubled.failed;
+    kiln_text_free(&doubled);
+}
+
 void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
                      const void *field)
 {
     (void)option;
     kiln_text_add(&printer->text, " ");
-    kiln_text_add_json(&printer->text, *(const char *const *)field);
+    kiln_print_quoted(printer, *(const char *const *)field);
     kiln_text_add(&printer->text, "\n");
 }
