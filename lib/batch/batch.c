@@ -13,7 +13,7 @@
 #include "option/schema.h"
 #include "suite/type.h"
 
-enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
+enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000, MAX_VALUE = 8000 };
 
 /* An entry of `jobs`, as the table fills it. */
 struct entry {
@@ -89,7 +89,7 @@ static bool read_values(struct kiln_reader *reader, const struct kiln_option *op
             return kiln_reader_error(reader, value->key, "this is no name of a parameter");
         kiln_text_add(&text, "params.%s=", value->key->text);
         kiln_node_write(value, &text);
-        const bool is_long = text.length > 2 * MAX_TEXT;
+        const bool is_long = text.length > MAX_VALUE;
         const bool ok =
             !text.failed && !is_long &&
             kiln_reader_copy_text(reader, text.data, &entry->params[entry->param_count]);

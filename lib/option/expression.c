@@ -16,7 +16,7 @@ enum { MOST_BYTES = 1000, MOST_DEPTH = 32, MOST_POWER = 100 };
 
 enum { S, M, RAD, K, PX, STOPS };
 
-static const int8_t powers_of[KILN_DIMENSION_COUNT][KILN_BASE_UNITS] = {
+static const int powers_of[KILN_DIMENSION_COUNT][KILN_BASE_UNITS] = {
     [KILN_SECONDS] = {[S] = 1},
     [KILN_ANGLE] = {[RAD] = 1},
     [KILN_ANGULAR_SPEED] = {[RAD] = 1, [S] = -1},
@@ -307,7 +307,7 @@ static bool multiply(struct parser *parser, struct kiln_quantity *result,
         const int power = result->powers[i] + (divide ? -factor->powers[i] : factor->powers[i]);
         if (power < -MOST_POWER || power > MOST_POWER)
             return fail(parser, "a unit has a power above %d", MOST_POWER);
-        result->powers[i] = (int8_t)power;
+        result->powers[i] = power;
     }
     result->value = divide ? result->value / factor->value : result->value * factor->value;
     return check(parser, result);

@@ -10,7 +10,7 @@ enum { KILN_BASE_UNITS = 6 };
 /* A number in SI, and the powers of its base units. */
 struct kiln_quantity {
     double value;
-    int8_t powers[KILN_BASE_UNITS]; /* s, m, rad, K, px, stops */
+    int powers[KILN_BASE_UNITS]; /* s, m, rad, K, px, stops */
 };
 
 /* Returns the quantity of a number in a dimension, in SI. */

@@ -223,7 +223,7 @@ static bool is_hex_color(const char *value)
 }
 
 struct kiln_node *kiln_override_value(struct kiln_reader *reader, const char *text,
-                                      const struct kiln_origin **out)
+                                      const struct kiln_origin **origin)
 {
     struct kiln_arena *arena = reader->scratch;
     char quoted[64];
@@ -237,16 +237,16 @@ struct kiln_node *kiln_override_value(struct kiln_reader *reader, const char *te
         return NULL;
     }
     char *name = kiln_arena_format(arena, "--set %.*s", (int)(equals - text), text);
-    struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
+    struct kiln_origin *own = kiln_arena_alloc(arena, 1, sizeof *own);
     char *value = is_hex_color(equals + 1) ? kiln_arena_format(arena, "\"%s\"", equals + 1)
                                            : kiln_arena_text(arena, equals + 1, strlen(equals + 1));
-    if (!name || !origin || !value) {
+    if (!name || !own || !value) {
         kiln_reader_out_of_memory(reader);
         return NULL;
     }
-    *origin = (struct kiln_origin){.name = name, .kind = reader->origin->kind};
-    *out = origin;
-    return kiln_node_parse(arena, value, strlen(value), origin, reader->error);
+    *own = (struct kiln_origin){.name = name, .kind = reader->origin->kind};
+    *origin = own;
+    return kiln_node_parse(arena, value, strlen(value), own, reader->error);
 }
 
 bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
