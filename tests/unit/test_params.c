@@ -337,6 +337,50 @@ static void parameters_are_limited(void **state)
     kiln_text_free(&text);
 }
 
+/* ---- the list of parameters -------------------------------------------------------------------
+ */
+
+static void parameters_are_listed(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(
+        TEMPLATE, (const char *const[]){"params.length=10 s", "params.shape=billboard", NULL});
+    struct kiln_scene_param list[20];
+    memset(list, '#', sizeof list);
+    for (size_t i = 0; i < 20; i++)
+        list[i].size = sizeof *list;
+    assert_int_equal(kiln_scene_list_params(scene, NULL, 0, 0), 10);
+    assert_int_equal(kiln_scene_list_params(scene, list, sizeof *list, 20), 10);
+    assert_string_equal(list[0].name, "brand");
+    assert_string_equal(list[0].value, "\"#ff0000\"");
+    assert_string_equal(list[0].help, "colour of the sparks");
+    assert_string_equal(list[0].place, "test.yaml:3:3");
+    assert_string_equal(kiln_param_kind_name(list[0].kind), "color");
+    assert_int_equal(list[1].kind, KILN_PARAM_NUMBER);
+    assert_string_equal(list[1].value, "10");
+    assert_string_equal(list[1].fallback, "2");
+    assert_string_equal(list[1].unit, "s");
+    assert_true(list[1].has_min && list[1].min == 1 && list[1].has_max && list[1].max == 30);
+    assert_string_equal(list[2].value, "5"); /* half of the length */
+    assert_string_equal(list[5].value, "[0, 2, 1]");
+    assert_string_equal(list[6].value, "\"billboard\"");
+    assert_int_equal(list[6].word_count, 2);
+    assert_string_equal(list[6].words[1], "sphere");
+    assert_string_equal(list[6].schema, "{\"enum\": [\"billboard\", \"sphere\"]}");
+    assert_string_equal(list[7].value, "true");
+    assert_string_equal(list[8].value, "\"$title\"");
+    assert_false(list[8].has_min || list[8].has_max);
+    /* An older caller has less room for each. */
+    struct older {
+        size_t size;
+        const char *name;
+    } older[2] = {{sizeof *older, NULL}, {sizeof *older, NULL}};
+    assert_int_equal(
+        kiln_scene_list_params(scene, (struct kiln_scene_param *)older, sizeof *older, 2), 10);
+    assert_string_equal(older[1].name, "length");
+    kiln_scene_destroy(&scene);
+}
+
 /* ---- files of parameters --------------------------------------------------------------------- */
 
 static void write_text(const char *path, const char *text)
@@ -397,6 +441,7 @@ int main(void)
         cmocka_unit_test(bad_values_are_named),
         cmocka_unit_test(bad_declarations_are_named),
         cmocka_unit_test(parameters_are_limited),
+        cmocka_unit_test(parameters_are_listed),
         cmocka_unit_test(files_of_parameters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
