@@ -143,7 +143,8 @@ static struct kiln_node *create_node(struct builder *builder, struct fy_event *e
         node->line = (uint32_t)mark->line + 1;
         node->column = (uint32_t)mark->column + 1;
     }
-    if (++builder->total > KILN_NODE_MAX_TOTAL) {
+    struct kiln_node_counts *counts = builder->origin->counts;
+    if (++*(counts ? &counts->parsed : &builder->total) > KILN_NODE_MAX_TOTAL) {
         kiln_node_error(node, builder->error, "more than %d entries in all; no more are allowed",
                         KILN_NODE_MAX_TOTAL);
         return NULL;
@@ -181,7 +182,7 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
         return kiln_node_error(node, error, "a key must be a word, not a list or mapping");
     kiln_node_quote(quoted, node->text);
     if (strcmp(node->text, "<<") == 0) {
-        if (!builder->origin->copies)
+        if (!builder->origin->counts)
             return kiln_node_error(node, error, "merge keys are not allowed");
         builder->has_merge[builder->depth - 1] = true;
     }
@@ -248,7 +249,7 @@ static bool add_alias(struct builder *builder, struct fy_event *event)
         if (builder->open[i] == named)
             return kiln_node_error(at, builder->error, "the alias is inside of its own anchor");
     }
-    struct kiln_copying copying = {builder->arena, builder->error, builder->origin->copies,
+    struct kiln_copying copying = {builder->arena, builder->error, builder->origin->counts,
                                    "repeated by the alias at", at};
     struct kiln_node *copy = kiln_node_copy(&copying, named, builder->depth);
     if (!copy)
@@ -314,7 +315,7 @@ static bool refuse_second_document(struct builder *builder, struct fy_event *eve
 static bool refuse_anchor_or_tag(struct builder *builder, struct fy_event *event,
                                  struct fy_token *anchor, struct fy_token *tag)
 {
-    if (anchor && !builder->origin->copies)
+    if (anchor && !builder->origin->counts)
         return refuse(builder, event, "anchors and aliases are not allowed");
     if (tag)
         return refuse(builder, event, "tags are not allowed");
@@ -329,7 +330,7 @@ static bool take_event(struct builder *builder, struct fy_event *event)
             return refuse_second_document(builder, event);
         return true;
     case FYET_ALIAS:
-        return builder->origin->copies
+        return builder->origin->counts
                    ? add_alias(builder, event)
                    : refuse(builder, event, "anchors and aliases are not allowed");
     case FYET_SCALAR:

@@ -2,7 +2,7 @@
  * position in the file, for error messages.
  *
  * The dialect is YAML 1.2 without tags and further documents, and its keys are plain words.
- * Anchors, aliases and the merge key << are read where the origin has a count of copies
+ * Anchors, aliases and the merge key << are read where the origin counts nodes
  * (option/node_copy.h), which limits them; without them, a tree cannot be larger than its text. */
 #ifndef KILN_OPTION_NODE_H
 #define KILN_OPTION_NODE_H
@@ -17,6 +17,12 @@ enum {
 };
 
 struct kiln_node;
+
+/* Counts the nodes of all texts that become one tree. */
+struct kiln_node_counts {
+    uint32_t parsed; /* at most KILN_NODE_MAX_TOTAL */
+    uint32_t copied; /* at most KILN_NODE_MAX_COPIES (option/node_copy.h) */
+};
 
 /* Says how a node came to its place in a tree from another one: "; included from scene.yaml:2:11".
  * Errors print the chain of links behind their message. */
@@ -35,7 +41,7 @@ struct kiln_origin {
     const char *version;   /* the first line of such a file, for messages: "kiln: 1"; or NULL */
     const char *syntax;    /* for messages: "JSON" for a text of one line; NULL: "YAML" */
     uint32_t most_entries; /* of one list or mapping; 0: KILN_NODE_MAX_ENTRIES */
-    uint32_t *copies;      /* counts the nodes that aliases copy; NULL: aliases are refused */
+    struct kiln_node_counts *counts; /* of all texts together; NULL: aliases are refused */
     const char *folder; /* folder below the asset root that paths in the text start at; NULL: it */
     const struct kiln_node_link *via; /* how the file was included; NULL: it was not */
 };

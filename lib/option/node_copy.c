@@ -7,7 +7,7 @@
 static struct kiln_node *copy_one(const struct kiln_copying *copying, const struct kiln_node *node)
 {
     struct kiln_node *copy = NULL;
-    if (++*copying->count > KILN_NODE_MAX_COPIES) {
+    if (++copying->counts->copied > KILN_NODE_MAX_COPIES) {
         kiln_node_error(copying->at, copying->error,
                         "aliases, uses and parameters copy more than the %d nodes that are allowed",
                         KILN_NODE_MAX_COPIES);

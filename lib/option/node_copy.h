@@ -12,9 +12,9 @@ enum { KILN_NODE_MAX_COPIES = 100000 };
 struct kiln_copying {
     struct kiln_arena *arena;
     struct kiln_error *error;
-    uint32_t *count;            /* of the nodes copied so far */
-    const char *words;          /* for errors in the copy: "used at" */
-    const struct kiln_node *at; /* where the copy was asked for; must outlive the copy */
+    struct kiln_node_counts *counts; /* of the nodes copied so far */
+    const char *words;               /* for errors in the copy: "used at" */
+    const struct kiln_node *at;      /* where the copy was asked for; must outlive the copy */
 };
 
 /* Returns a copy of a tree, which lies in a tree below `depth` lists and mappings. Every copied

@@ -458,7 +458,7 @@ static bool replace_name(struct kiln_reader *reader, struct kiln_node *node)
     if (!at || !words)
         return kiln_reader_out_of_memory(reader);
     *at = *node;
-    const struct kiln_copying copying = {reader->scratch, reader->error, reader->copies, words, at};
+    const struct kiln_copying copying = {reader->scratch, reader->error, reader->counts, words, at};
     struct kiln_node *copy =
         make_ready(reader, param) ? kiln_node_copy(&copying, param->value, 0) : NULL;
     if (!copy)

@@ -16,9 +16,9 @@ struct kiln_reader {
     struct kiln_error *error;
     const struct kiln_log *log; /* gets warnings; NULL: nobody does */
     void *target; /* the struct that the whole table fills, for types that need other parts of it */
-    uint32_t *copies;           /* counts the nodes that `use` and parameters copy; NULL: none do */
-    struct kiln_params *params; /* that expressions may name; NULL: none */
-    double clip_s;              /* length of the clip, for times in "%"; 0: it is not known */
+    struct kiln_node_counts *counts; /* of the nodes of the tree; NULL: nothing is copied */
+    struct kiln_params *params;      /* that expressions may name; NULL: none */
+    double clip_s;                   /* length of the clip, for times in "%"; 0: it is not known */
 
     char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */
     size_t path_length;

@@ -58,7 +58,7 @@ static bool resolve(const struct using *using, struct kiln_node *entry, const st
     if (!resolve(using, other, &user))
         return false;
     kiln_node_take(entry, "use");
-    const struct kiln_copying copying = {reader->scratch, reader->error, reader->copies, "used at",
+    const struct kiln_copying copying = {reader->scratch, reader->error, reader->counts, "used at",
                                          use};
     struct kiln_node *copy = kiln_node_copy(&copying, other, 0);
     if (!copy)

@@ -6,7 +6,7 @@
 #include "option/reader.h"
 
 /* Resolves all uses in a mapping that the rows describe. A copy has all keys of the entry but
- * `enabled`. The reader's `copies` counts the copied nodes. */
+ * `enabled`. The reader has `counts`. */
 bool kiln_use(struct kiln_reader *reader, const struct kiln_option *rows, struct kiln_node *root);
 
 #endif

@@ -107,8 +107,8 @@ static bool claim_includes(const struct search *s, const struct kiln_node *root)
 static bool claim_yaml(const struct search *s, const char *text)
 {
     struct kiln_error ignored = {0};
-    uint32_t copies = 0;
-    const struct kiln_origin origin = {.name = "a scene", .copies = &copies};
+    struct kiln_node_counts counts = {0};
+    const struct kiln_origin origin = {.name = "a scene", .counts = &counts};
     const struct kiln_node *root = kiln_node_parse(s->arena, text, strlen(text), &origin, &ignored);
     return !root || (claim_node(s, root) && claim_includes(s, root));
 }

@@ -151,7 +151,7 @@ static struct kiln_scene *create(const char *text, const char *name,
                                  kiln_scene_estimate *estimate, struct kiln_error *error)
 {
     const struct kiln_scene_params *params = source->params;
-    uint32_t copies = 0;
+    struct kiln_node_counts counts = {0};
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
     const double before_s = kiln_clock_cpu_seconds();
@@ -162,14 +162,14 @@ static struct kiln_scene *create(const char *text, const char *name,
         kiln_error_no_memory(error, "reading a scene");
     } else {
         *origin = kiln_scene_origin(name_copy);
-        origin->copies = &copies;
+        origin->counts = &counts;
         struct kiln_reader reader = {.origin = origin,
                                      .arena = arena,
                                      .scratch = scratch,
                                      .error = error,
                                      .log = &params->log,
                                      .target = scene,
-                                     .copies = &copies};
+                                     .counts = &counts};
         kiln_handle_mark(&scene->handle, KILN_HANDLE_SCENE);
         scene->arena = arena;
         scene->name = name_copy;
@@ -276,15 +276,15 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
 {
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
-    uint32_t copies = 0;
+    struct kiln_node_counts counts = {0};
     struct kiln_origin origin = kiln_scene_origin(path);
-    origin.copies = &copies;
+    origin.counts = &counts;
     struct kiln_reader reader = {.origin = &origin,
                                  .arena = arena,
                                  .scratch = arena,
                                  .error = error,
                                  .target = scene,
-                                 .copies = &copies};
+                                 .counts = &counts};
     const struct kiln_node *root = NULL;
     if (!arena || !scene) {
         kiln_error_no_memory(error, "reading a scene");

@@ -117,7 +117,7 @@ static bool make_origin(struct opening *opening, const char *path, const char *n
     if (!origin)
         return kiln_reader_out_of_memory(opening->reader);
     *origin = kiln_scene_origin(name);
-    origin->copies = opening->reader->copies;
+    origin->counts = opening->reader->counts;
     origin->via = link;
     origin->folder = slash ? kiln_arena_text(arena, path, (size_t)(slash - path)) : NULL;
     file->origin = origin;
@@ -200,7 +200,7 @@ static bool read_params_file(struct kiln_reader *reader, const char *path,
     if (!origin || !name)
         return kiln_reader_out_of_memory(reader);
     *origin = (struct kiln_origin){
-        .name = name, .has_lines = true, .kind = "a file of parameters", .copies = reader->copies};
+        .name = name, .has_lines = true, .kind = "a file of parameters", .counts = reader->counts};
     const int file = kiln_scene_open(path, params->asset_root, reader->error);
     if (file < 0)
         return false;
