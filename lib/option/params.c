@@ -12,7 +12,7 @@
 
 #include "option/node_copy.h"
 
-enum { MOST_TEXT = 4000 };
+enum { MOST_TEXT = 4000, MOST_DEPTH = 16 };
 static const double MOST_NUMBER = 1e30;
 
 enum kind { NUMBER, INTEGER, COLOR, VECTOR, CHOICE, SWITCH, TEXT, FILE_PATH };
@@ -396,6 +396,10 @@ static bool make_ready(struct kiln_reader *reader, struct kiln_param *param)
     kiln_reader_enter(reader, param->name);
     if (param->state == PARAM_BUSY)
         return kiln_reader_error(reader, param->entry->key, "the parameter depends on itself");
+    if (reader->params->depth == MOST_DEPTH)
+        return kiln_reader_error(reader, param->entry->key,
+                                 "more than %d parameters depend on each other", MOST_DEPTH);
+    reader->params->depth++;
     param->state = PARAM_BUSY;
     if (!replace_declaration(reader, param) || !make_row(reader, param) ||
         !check_value(reader, param, param->fallback) ||
@@ -405,6 +409,7 @@ static bool make_ready(struct kiln_reader *reader, struct kiln_param *param)
     if (param->kind >= CHOICE) /* texts */
         make_literal(param->value);
     param->state = PARAM_READY;
+    reader->params->depth--;
     memcpy(reader->path, path, sizeof path);
     reader->path_length = before;
     return true;

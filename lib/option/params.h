@@ -26,6 +26,7 @@ struct kiln_param {
 struct kiln_params {
     struct kiln_param list[KILN_MAX_PARAMS];
     uint32_t count;
+    int depth; /* of parameters that need each other, while they are made ready */
     /* Checks the text of a file's path, without looking for the file; NULL: any will do. */
     bool (*check_file)(struct kiln_reader *reader, const struct kiln_node *path);
 };

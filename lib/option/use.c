@@ -8,10 +8,14 @@
 #include "option/merge.h"
 #include "option/node_copy.h"
 
+/* Entries that use each other one after another. So the recursion is limited. */
+enum { MOST_DEPTH = 64 };
+
 /* An entry that is being resolved, and the one that uses it. */
 struct user {
     const struct kiln_node *entry;
     const struct user *of;
+    int depth;
 };
 
 static bool unknown_name(struct kiln_reader *reader, const struct kiln_node *map,
@@ -39,7 +43,7 @@ struct using
 static bool resolve(const struct using *using, struct kiln_node *entry, const struct user *of)
 {
     struct kiln_reader *reader = using->reader;
-    const struct user user = {entry, of};
+    const struct user user = {entry, of, of ? of->depth + 1 : 1};
     struct kiln_node *use = kiln_node_entry(entry, "use");
     if (!use)
         return true;
@@ -55,6 +59,8 @@ static bool resolve(const struct using *using, struct kiln_node *entry, const st
         if (known->entry == other)
             return kiln_reader_error(reader, use, "this entry uses itself");
     }
+    if (user.depth > MOST_DEPTH)
+        return kiln_reader_error(reader, use, "more than %d entries use each other", MOST_DEPTH);
     if (!resolve(using, other, &user))
         return false;
     kiln_node_take(entry, "use");

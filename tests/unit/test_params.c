@@ -156,6 +156,36 @@ static void arithmetic_is_limited(void **state)
 
 /* ---- parameters ------------------------------------------------------------------------------ */
 
+/* Arithmetic stands wherever a row takes numbers: in colours, lists, short forms and curves. */
+static void arithmetic_in_all_places(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(
+        "kiln: 1\n"
+        "params: {a: {number: 0.25}}\n"
+        "output: {size: [\"= 32 * 2\", 32], fps: \"= 50 * $a\"}\n"
+        "simulation: {rate: \"= 100 * $a\", bounds: {min: [\"= -4 * $a\", 0, 0], max: [1, 1, 1]}}\n"
+        "systems:\n"
+        "  s:\n"
+        "    emit: {rate: 1, life: [\"= 4 * $a\", \"= 8 s * $a\"], speed: 1, bursts: {\"= 2 s * "
+        "$a\": "
+        "\"= 12 * $a\"}}\n"
+        "    forces: [drag: \"= 8 * $a\", gravity: [0, \"= -$a\", 0]]\n"
+        "    look: {color: \"= 2 * $a\", size: {life: [\"= $a\", \"= 2 * $a\"]}}\n",
+        NULL);
+    const struct kiln_system *system = &scene->systems[0];
+    assert_int_equal(scene->width, 64);
+    assert_true(scene->fps.num == 25 && scene->fps.den == 2);
+    assert_int_equal(scene->steps_per_frame, 2);
+    assert_true(scene->bounds.min[0] == -1);
+    assert_true(system->emit.life.min.constant == 1 && system->emit.life.max.constant == 2);
+    assert_true(system->forces[0].pull.constant == 2);
+    assert_true(system->forces[1].acceleration.y.constant == -0.25f);
+    assert_true(system->look.color.z.constant == 0.5f);
+    assert_true(scene->keys[system->look.size.first + 1].y == 0.5f);
+    kiln_scene_destroy(&scene);
+}
+
 static const char TEMPLATE[] = "kiln: 1\n"
                                "params:\n"
                                "  brand: {color: \"#ff0000\", help: colour of the sparks}\n"
@@ -327,6 +357,13 @@ static void parameters_are_limited(void **state)
     expect_error(&error, KILN_INVALID_INPUT,
                  "test.yaml:3:3: params: found 257 parameters; at most 256 are allowed");
     kiln_text_free(&text);
+    kiln_text_add(&text, "kiln: 1\nparams:\n");
+    for (int i = 0; i < 200; i++)
+        kiln_text_add(&text, "  p%d: {number: \"= $p%d + 1\"}\n", i, i + 1);
+    assert_null(try_scene(text.data, NULL, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "test.yaml:19:3: params.p16: more than 16 parameters depend on each other");
+    kiln_text_free(&text);
     kiln_text_add(&text, "params.clip=");
     for (int i = 0; i < 1000000; i++)
         kiln_text_add(&text, "0123456789");
@@ -435,6 +472,7 @@ int main(void)
         cmocka_unit_test(sines_are_exact),
         cmocka_unit_test(arithmetic),
         cmocka_unit_test(arithmetic_fails),
+        cmocka_unit_test(arithmetic_in_all_places),
         cmocka_unit_test(arithmetic_is_limited),
         cmocka_unit_test(parameters_stand_for_values),
         cmocka_unit_test(parameters_take_values),

@@ -216,6 +216,20 @@ static void uses_fail(void **state)
     expect_all(bad_uses, sizeof bad_uses / sizeof *bad_uses);
 }
 
+static void uses_are_limited(void **state)
+{
+    (void)state;
+    struct kiln_text text = {0};
+    struct kiln_error error = {0};
+    kiln_text_add(&text, "kiln: 1\nsystems:\n");
+    for (int i = 0; i < 1000; i++)
+        kiln_text_add(&text, "  s%d: {use: s%d}\n", i, i + 1);
+    assert_null(try_scene(text.data, NULL, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "test.yaml:67:14: systems.s64.use: more than 64 entries use each other");
+    kiln_text_free(&text);
+}
+
 /* ---- includes -------------------------------------------------------------------------------- */
 
 struct place {
@@ -411,6 +425,7 @@ int main(void)
         cmocka_unit_test(uses_of_kinds),
         cmocka_unit_test(objects_have_names),
         cmocka_unit_test(uses_fail),
+        cmocka_unit_test(uses_are_limited),
         cmocka_unit_test_setup_teardown(includes_merge, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(assets_of_includes, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(includes_fail, enter_folder, leave_folder),
