@@ -86,8 +86,9 @@ static void describe(char out[64], const struct kiln_quantity *quantity)
 struct parser {
     struct kiln_reader *reader;
     const struct kiln_node *node;
-    const char *at; /* the rest of the text */
-    int depth;      /* of brackets and signs */
+    const char *at;  /* the rest of the text */
+    bool is_of_clip; /* whether "%" is a part of the clip, as in the row that is read */
+    int depth;       /* of brackets and signs */
 };
 
 static bool fail(struct parser *parser, const char *format, ...)
@@ -153,6 +154,12 @@ static bool read_number(struct parser *parser, struct kiln_quantity *result)
     if (length > 0 && !kiln_unit_to_si_of(unit, length, &value))
         return fail_at(parser, "a number with a unit");
     parser->at = unit + length;
+    if (dimension == KILN_FRACTION && parser->is_of_clip) {
+        if (parser->reader->clip_s <= 0)
+            return fail(parser, "the length of the clip is not known here");
+        dimension = KILN_SECONDS;
+        value *= parser->reader->clip_s;
+    }
     *result = kiln_quantity_of(dimension, value);
     return check(parser, result);
 }
@@ -356,10 +363,11 @@ bool kiln_expression_is(const struct kiln_node *node)
     return node->kind == KILN_NODE_SCALAR && !node->literal && node->text[0] == '=';
 }
 
-bool kiln_expression_compute(struct kiln_reader *reader, const struct kiln_node *node,
-                             struct kiln_quantity *quantity)
+static bool compute(struct kiln_reader *reader, const struct kiln_node *node, bool is_of_clip,
+                    struct kiln_quantity *quantity)
 {
-    struct parser parser = {.reader = reader, .node = node, .at = node->text + 1};
+    struct parser parser = {
+        .reader = reader, .node = node, .at = node->text + 1, .is_of_clip = is_of_clip};
     const size_t length = strlen(node->text);
     if (length > MOST_BYTES)
         return kiln_reader_error(reader, node, "arithmetic of %zu bytes; at most %d are allowed",
@@ -370,13 +378,19 @@ bool kiln_expression_compute(struct kiln_reader *reader, const struct kiln_node 
     return *parser.at == '\0' || fail_at(&parser, "+, -, * or /");
 }
 
+bool kiln_expression_compute(struct kiln_reader *reader, const struct kiln_node *node,
+                             struct kiln_quantity *quantity)
+{
+    return compute(reader, node, false, quantity);
+}
+
 bool kiln_expression_read(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node, double *value)
 {
     struct parser parser = {.reader = reader, .node = node};
     struct kiln_quantity result;
     char units[64];
-    if (!kiln_expression_compute(reader, node, &result))
+    if (!compute(reader, node, option->is_of_clip, &result))
         return false;
     const struct kiln_quantity wanted = kiln_quantity_of(option->dimension, 0);
     const bool is_bare =

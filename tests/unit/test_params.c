@@ -203,6 +203,7 @@ static const char TEMPLATE[] = "kiln: 1\n"
                                "camera:\n"
                                "  position: $place\n"
                                "  fov: {keys: {0 s: 30 deg, 50 %: 40 deg, $length: 50 deg}}\n"
+                               "  roll: {keys: {0 s: 0 deg, \"= 75 % + 0.25 s\": 1 deg}}\n"
                                "systems:\n"
                                "  sparks:\n"
                                "    enabled: $on\n"
@@ -222,6 +223,7 @@ static void parameters_stand_for_values(void **state)
     assert_int_equal(scene->systems[0].look.shape, KILN_SHAPE_SPHERE);
     assert_true(scene->keys[scene->camera.fov.first + 1].x == 1);
     assert_true(scene->keys[scene->camera.fov.first + 2].x == 2);
+    assert_true(scene->keys[scene->camera.roll.first + 1].x == 1.75f);
     char *text = print_scene(scene);
     assert_null(strstr(text, "params"));
     assert_null(strstr(text, "duration"));
