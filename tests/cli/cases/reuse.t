@@ -233,3 +233,10 @@ $ echo '{"scene": "title.yaml", "output": "none", "params": {"a b": 1}}' | kiln 
 $ echo '{"scene": "title.yaml", "output": "none", "params": 3}' | kiln render --batch -
 2|standard input:1:53: params: expected a mapping of up to 256 names of parameters to values, found '3'
 = 3
+
+What changed in the scene of a golden test names the part and the line.
+
+$ printf 'kiln_test: 1\nscene: title.yaml\nframes: [6]\n' >title.test.yaml && kiln test title.test.yaml -q --update missing --no-report --device cpu
+$ sed -i 's/= 40 1/= 90 1/' parts/fire.yaml; kiln test title.test.yaml -q --no-report --device cpu --junit junit.xml >log; grep '^scene:' junit.xml
+1|scene: systems.flames.emit.rate: 40 1/s -&gt; 90 1/s (parts/fire.yaml:6)
+1|scene: systems.left.emit.rate: 40 1/s -&gt; 90 1/s (parts/fire.yaml:6, used at title.yaml:12)
