@@ -271,8 +271,9 @@ static struct kiln_node *read_tree(struct kiln_reader *reader, const char *path,
     return kiln_scene_include(reader, root, &source) ? root : NULL;
 }
 
-bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
-                              void *user, struct kiln_error *error)
+bool kiln_scene_visit_names(const char *path, const char *key,
+                            void (*visit)(void *user, const char *name), void *user,
+                            struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
@@ -292,11 +293,11 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
         scene->arena = arena;
         root = read_tree(&reader, path, error);
     }
-    const struct kiln_node *systems = root ? kiln_node_entry(root, "systems") : NULL;
-    if (systems && systems->kind == KILN_NODE_MAP) {
-        for (const struct kiln_node *system = systems->first; system; system = system->next) {
-            if (kiln_option_is_name(system->key->text))
-                visit(user, system->key->text);
+    const struct kiln_node *map = root ? kiln_node_entry(root, key) : NULL;
+    if (map && map->kind == KILN_NODE_MAP) {
+        for (const struct kiln_node *entry = map->first; entry; entry = entry->next) {
+            if (kiln_option_is_name(entry->key->text))
+                visit(user, entry->key->text);
         }
     }
     bool ok = root != NULL;
