@@ -123,8 +123,9 @@ KILN_API bool kiln_cancel_is_requested(const struct kiln_cancel *cancel); /* NUL
 struct kiln_scene;
 
 /* How a scene file is read. `overrides` are texts "dotted.key=value" that are applied in order
- * after the file; a '*' in a key names every entry of a map or list. `asset_root` is the folder
- * that relative paths of assets start at; NULL stands for the scene file's folder. */
+ * after the file; a '*' in a key names every entry of a map or list. "params.NAME=VALUE" gives a
+ * parameter a value, before the others are applied. `asset_root` is the folder that relative paths
+ * of assets start at; NULL stands for the scene file's folder. */
 struct kiln_scene_params {
     size_t size;
     const char *asset_root;

@@ -15,26 +15,26 @@
 enum { MOST_TEXT = 4000, MOST_DEPTH = 16 };
 static const double MOST_NUMBER = 1e30;
 
-enum kind { NUMBER, INTEGER, COLOR, VECTOR, CHOICE, SWITCH, TEXT, FILE_PATH };
-
 static const char *const kind_names[KILN_PARAM_KINDS] = {
-    [NUMBER] = "number", [INTEGER] = "integer", [COLOR] = "color", [VECTOR] = "vector",
-    [CHOICE] = "choice", [SWITCH] = "switch",   [TEXT] = "text",   [FILE_PATH] = "file"};
+    [KILN_PARAM_NUMBER] = "number", [KILN_PARAM_INTEGER] = "integer",
+    [KILN_PARAM_COLOR] = "color",   [KILN_PARAM_VECTOR] = "vector",
+    [KILN_PARAM_CHOICE] = "choice", [KILN_PARAM_SWITCH] = "switch",
+    [KILN_PARAM_TEXT] = "text",     [KILN_PARAM_FILE] = "file"};
 
 static const char *const other_keys[] = {"min", "max", "of", "help"};
 enum { OTHER_KEYS = sizeof other_keys / sizeof *other_keys };
 
-const char *kiln_params_kind_name(unsigned kind)
+const char *kiln_params_kind_name(enum kiln_param_kind kind)
 {
     return kind_names[kind];
 }
 
 /* Returns the entry of a declaration that says its kind, which *kind becomes; NULL if none does. */
-static struct kiln_node *find_kind(const struct kiln_node *entry, enum kind *kind)
+static struct kiln_node *find_kind(const struct kiln_node *entry, enum kiln_param_kind *kind)
 {
     for (unsigned i = 0; i < KILN_PARAM_KINDS; i++) {
         struct kiln_node *value = kiln_node_entry(entry, kind_names[i]);
-        *kind = (enum kind)i;
+        *kind = (enum kiln_param_kind)i;
         if (value)
             return value;
     }
@@ -43,7 +43,7 @@ static struct kiln_node *find_kind(const struct kiln_node *entry, enum kind *kin
 
 const char *kiln_params_kind_of(const struct kiln_node *entry)
 {
-    enum kind kind;
+    enum kiln_param_kind kind;
     return find_kind(entry, &kind) ? kind_names[kind] : NULL;
 }
 
@@ -107,7 +107,7 @@ static bool read_help(struct kiln_reader *reader, const struct kiln_node *entry,
 
 static bool declare(struct kiln_reader *reader, struct kiln_node *entry, struct kiln_param *param)
 {
-    enum kind kind;
+    enum kiln_param_kind kind;
     const size_t before = kiln_reader_enter(reader, entry->key->text);
     if (!is_name(entry->key->text))
         return kiln_reader_error(reader, entry->key,
@@ -239,15 +239,16 @@ static bool read_limit(struct kiln_reader *reader, struct kiln_param *param, con
     if (!node)
         return true;
     const size_t before = kiln_reader_enter(reader, key);
-    const bool ranged = param->kind == NUMBER || param->kind == INTEGER || param->kind == VECTOR;
+    const bool ranged = param->kind == KILN_PARAM_NUMBER || param->kind == KILN_PARAM_INTEGER ||
+                        param->kind == KILN_PARAM_VECTOR;
     struct kiln_option row = param->row;
-    row.type = param->kind == INTEGER ? &kiln_type_integer : &kiln_type_number;
+    row.type = param->kind == KILN_PARAM_INTEGER ? &kiln_type_integer : &kiln_type_number;
     uint32_t whole = 0;
     if (!ranged)
         return kiln_reader_error(reader, node->key, "a %s has no range", kind_names[param->kind]);
-    const bool ok = param->kind == INTEGER ? kiln_read_whole(reader, &row, node, &whole)
-                                           : kiln_read_number(reader, &row, node, limit);
-    if (ok && param->kind == INTEGER)
+    const bool ok = param->kind == KILN_PARAM_INTEGER ? kiln_read_whole(reader, &row, node, &whole)
+                                                      : kiln_read_number(reader, &row, node, limit);
+    if (ok && param->kind == KILN_PARAM_INTEGER)
         *limit = whole;
     kiln_reader_leave(reader, before);
     return ok;
@@ -269,9 +270,9 @@ static bool read_range(struct kiln_reader *reader, struct kiln_param *param)
 static bool read_words(struct kiln_reader *reader, struct kiln_param *param)
 {
     const struct kiln_node *of = kiln_node_entry(param->entry, "of");
-    if (of && param->kind != CHOICE)
+    if (of && param->kind != KILN_PARAM_CHOICE)
         return kiln_reader_error(reader, of->key, "only a choice has `of`");
-    if (param->kind != CHOICE)
+    if (param->kind != KILN_PARAM_CHOICE)
         return true;
     if (!of || of->kind != KILN_NODE_LIST || of->count == 0)
         return kiln_reader_error(reader, of ? of : param->entry,
@@ -293,18 +294,18 @@ static bool read_words(struct kiln_reader *reader, struct kiln_param *param)
 static bool make_row(struct kiln_reader *reader, struct kiln_param *param)
 {
     static const struct kiln_option rows[KILN_PARAM_KINDS] = {
-        [NUMBER] = {.type = &kiln_type_number},
-        [INTEGER] = {.type = &kiln_type_integer, .max = UINT32_MAX},
-        [COLOR] = {.type = &kiln_type_color, .max = 1000000},
-        [VECTOR] = {.type = &kiln_type_vector},
-        [CHOICE] = {.type = &kiln_type_choice},
-        [SWITCH] = {.type = &kiln_type_boolean},
-        [TEXT] = {.type = &kiln_type_text, .max = MOST_TEXT},
-        [FILE_PATH] = {.type = &kiln_type_text, .min = 1, .max = MOST_TEXT},
+        [KILN_PARAM_NUMBER] = {.type = &kiln_type_number},
+        [KILN_PARAM_INTEGER] = {.type = &kiln_type_integer, .max = UINT32_MAX},
+        [KILN_PARAM_COLOR] = {.type = &kiln_type_color, .max = 1000000},
+        [KILN_PARAM_VECTOR] = {.type = &kiln_type_vector},
+        [KILN_PARAM_CHOICE] = {.type = &kiln_type_choice},
+        [KILN_PARAM_SWITCH] = {.type = &kiln_type_boolean},
+        [KILN_PARAM_TEXT] = {.type = &kiln_type_text, .max = MOST_TEXT},
+        [KILN_PARAM_FILE] = {.type = &kiln_type_text, .min = 1, .max = MOST_TEXT},
     };
     param->row = rows[param->kind];
     param->row.name = param->name;
-    if (param->kind == NUMBER || param->kind == VECTOR) {
+    if (param->kind == KILN_PARAM_NUMBER || param->kind == KILN_PARAM_VECTOR) {
         param->row.min = -MOST_NUMBER;
         param->row.max = MOST_NUMBER;
         if (!find_dimension(reader, param->fallback, &param->row.dimension))
@@ -336,10 +337,10 @@ static bool add_unit(struct kiln_reader *reader, struct kiln_param *param, struc
 
 static bool add_units(struct kiln_reader *reader, struct kiln_param *param)
 {
-    if (param->kind == NUMBER)
+    if (param->kind == KILN_PARAM_NUMBER)
         return add_unit(reader, param, param->value);
-    for (struct kiln_node *item = param->kind == VECTOR ? param->value->first : NULL; item;
-         item = item->next) {
+    for (struct kiln_node *item = param->kind == KILN_PARAM_VECTOR ? param->value->first : NULL;
+         item; item = item->next) {
         if (!add_unit(reader, param, item))
             return false;
     }
@@ -363,7 +364,7 @@ static bool check_value(struct kiln_reader *reader, struct kiln_param *param,
     struct kiln_node_link link = {"declared at", param->entry->key, via};
     if (node != param->fallback)
         node->via = &link;
-    const bool is_file = param->kind == FILE_PATH;
+    const bool is_file = param->kind == KILN_PARAM_FILE;
     const bool ok =
         param->row.type->read(reader, &param->row, node, &field) &&
         (!is_file || !reader->params->check_file || reader->params->check_file(reader, node));
@@ -406,7 +407,7 @@ static bool make_ready(struct kiln_reader *reader, struct kiln_param *param)
         (param->value != param->fallback && !check_value(reader, param, param->value)) ||
         !add_units(reader, param))
         return false;
-    if (param->kind >= CHOICE) /* texts */
+    if (param->kind >= KILN_PARAM_CHOICE) /* texts */
         make_literal(param->value);
     param->state = PARAM_READY;
     reader->params->depth--;
@@ -435,7 +436,7 @@ bool kiln_params_quantity(struct kiln_reader *reader, const struct kiln_node *no
         suggest(reader, name, suggestion);
         return kiln_reader_error(reader, node, "there is no parameter '%s'%s", name, suggestion);
     }
-    if (param->kind != NUMBER && param->kind != INTEGER)
+    if (param->kind != KILN_PARAM_NUMBER && param->kind != KILN_PARAM_INTEGER)
         return kiln_reader_error(reader, node, "$%s is a %s, and arithmetic takes numbers", name,
                                  kind_names[param->kind]);
     if (!make_ready(reader, param) || !kiln_read_number(reader, &param->row, param->value, &value))

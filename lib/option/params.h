@@ -6,14 +6,13 @@
 
 enum { KILN_MAX_PARAMS = 256 };
 
-/* The kinds of parameters, in the order of KILN_PARAM_* in kiln.h. */
-enum { KILN_PARAM_KINDS = 8 };
+enum { KILN_PARAM_KINDS = KILN_PARAM_FILE + 1 };
 
 /* A parameter. */
 struct kiln_param {
     const char *name;
-    const char *help;              /* "" without one */
-    unsigned kind;                 /* enum kiln_param_kind */
+    const char *help; /* "" without one */
+    enum kiln_param_kind kind;
     const struct kiln_node *entry; /* its declaration */
     struct kiln_node *fallback;    /* the value that the declaration has */
     struct kiln_node *value;       /* the value that it has: the fallback, or another one */
@@ -63,7 +62,7 @@ bool kiln_params_quantity(struct kiln_reader *reader, const struct kiln_node *no
 const char *kiln_params_kind_of(const struct kiln_node *entry);
 
 /* Returns the word for a kind: "number". */
-const char *kiln_params_kind_name(unsigned kind);
+const char *kiln_params_kind_name(enum kiln_param_kind kind);
 
 /* Appends a node as a file would write it in one line. */
 void kiln_node_write(const struct kiln_node *node, struct kiln_text *out);

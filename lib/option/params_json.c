@@ -1,6 +1,4 @@
 /* Writes the values of parameters as JSON, for forms that people fill in. */
-#include <string.h>
-
 #include "option/params.h"
 
 /* Writes a number in the unit of its dimension. An angle is a text, since its unit must be given.
@@ -41,15 +39,14 @@ static bool write_list(struct kiln_reader *reader, const struct kiln_param *para
 bool kiln_params_write_json(struct kiln_reader *reader, const struct kiln_param *param,
                             const struct kiln_node *value, struct kiln_text *out)
 {
-    const char *kind = kiln_params_kind_name(param->kind);
     double number;
     if (value->kind == KILN_NODE_LIST)
         return write_list(reader, param, value, out);
-    if (strcmp(kind, "number") == 0 || strcmp(kind, "integer") == 0 ||
-        (strcmp(kind, "color") == 0 &&
+    if (param->kind == KILN_PARAM_NUMBER || param->kind == KILN_PARAM_INTEGER ||
+        (param->kind == KILN_PARAM_COLOR &&
          (kiln_expression_is(value) || kiln_text_to_double(value->text, &number))))
         return write_number(reader, param, value, out);
-    if (strcmp(kind, "switch") == 0)
+    if (param->kind == KILN_PARAM_SWITCH)
         kiln_text_add(out, "%s", value->text);
     else
         kiln_text_add_json(out, value->text);

@@ -73,7 +73,7 @@ static void schema_params(const struct kiln_option *option, struct kiln_text *ou
                   "\"object\", \"additionalProperties\": false, \"properties\": {",
                   KILN_MAX_PARAMS);
     for (unsigned i = 0; i < KILN_PARAM_KINDS; i++)
-        kiln_text_add(out, "\"%s\": {}, ", kiln_params_kind_name(i));
+        kiln_text_add(out, "\"%s\": {}, ", kiln_params_kind_name((enum kiln_param_kind)i));
     kiln_text_add(out, "\"min\": {}, \"max\": {}, \"of\": {\"type\": \"array\", \"minItems\": 1}, "
                        "\"help\": {\"type\": \"string\"}}}}");
 }

@@ -70,7 +70,7 @@ static bool keep_param(struct kiln_reader *reader, const struct kiln_param *para
     kiln_node_place(param->entry->key, place, sizeof place);
     const enum kiln_dimension dimension = param->row.dimension;
     *kept = kiln_scene_param_empty();
-    kept->kind = (enum kiln_param_kind)param->kind;
+    kept->kind = param->kind;
     kept->has_min = param->has_min;
     kept->has_max = param->has_max;
     kept->min = shown_limit(param, param->row.min);
