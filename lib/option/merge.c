@@ -25,20 +25,8 @@ bool kiln_merge_is_of_names(const struct kiln_option *row, const struct kiln_nod
             (row->type == &kiln_type_list && row->is_named));
 }
 
-static const struct kiln_option_kind *kind_of(const struct kiln_option_kind *kinds,
-                                              const struct kiln_node *entry)
-{
-    const struct kiln_node *field = kiln_node_entry(entry, "field");
-    for (; kinds->name; kinds++) {
-        if (strcmp(kinds->name, entry->key->text) == 0 &&
-            (!kinds->variant || !field || kiln_node_is(field, kinds->variant)))
-            return kinds;
-    }
-    return NULL;
-}
-
-/* Merges two mappings whose one key names a kind. Another kind, or a value that is not a mapping,
- * stays whole. */
+/* Merges two mappings whose one key names a kind. Another kind, a kind of several variants, and a
+ * value that is not a mapping stay whole. */
 static bool merge_kinds(struct kiln_node *own, struct kiln_node *under,
                         const struct kiln_option_kind *kinds, struct kiln_error *error)
 {
@@ -49,23 +37,9 @@ static bool merge_kinds(struct kiln_node *own, struct kiln_node *under,
         a->kind != KILN_NODE_MAP || b->kind != KILN_NODE_MAP || kiln_node_is_animated(a) ||
         kiln_node_is_animated(b))
         return true;
-    const struct kiln_option_kind *kind = kind_of(kinds, a);
-    if (!kind || (kind_of(kinds, b) != kind && kiln_node_entry(a, "field")))
-        return true;
-    if (!kiln_node_entry(a, "field"))
-        kind = kind_of(kinds, b);
-    struct kiln_node *field = kiln_node_entry(b, "field");
-    if (field && !kiln_node_entry(a, "field")) { /* the kind's variant goes with its members */
-        for (struct kiln_node **at = &b->first; *at; at = &(*at)->next) {
-            if (*at == field) {
-                *at = field->next;
-                break;
-            }
-        }
-        if (!append(a, field, error))
-            return false;
-    }
-    return !kind || kiln_merge_members(a, b, kind->members, error);
+    while (kinds->name && strcmp(kinds->name, a->key->text) != 0)
+        kinds++;
+    return !kinds->name || kinds->variant || kiln_merge_members(a, b, kinds->members, error);
 }
 
 /* Merges two declarations of a parameter, unless they are of different kinds. */

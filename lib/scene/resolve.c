@@ -181,7 +181,8 @@ bool kiln_scene_include(struct kiln_reader *reader, struct kiln_node *root,
 
 /* ---- parameters ------------------------------------------------------------------------------ */
 
-bool kiln_scene_check_path(struct kiln_reader *reader, const struct kiln_node *path)
+/* Checks the path that a parameter of the kind `file` has. */
+static bool check_path(struct kiln_reader *reader, const struct kiln_node *path)
 {
     char joined[KILN_PATH_SIZE];
     return kiln_builtin_name_of(path->text) || strcmp(path->text, "none") == 0 ||
@@ -249,7 +250,7 @@ static bool read_params(struct kiln_reader *reader, struct kiln_node *root,
 {
     if (!kiln_params_declare(reader, kiln_node_take(root, "params")))
         return false;
-    reader->params->check_file = kiln_scene_check_path;
+    reader->params->check_file = check_path;
     for (size_t i = 0; i < params->params_file_count; i++) {
         if (!read_params_file(reader, params->params_files[i], params))
             return false;

@@ -22,7 +22,4 @@ bool kiln_scene_resolve(struct kiln_reader *reader, struct kiln_node *root,
 bool kiln_scene_include(struct kiln_reader *reader, struct kiln_node *root,
                         const struct kiln_scene_source *source);
 
-/* Checks the path that a parameter of the kind `file` has. */
-bool kiln_scene_check_path(struct kiln_reader *reader, const struct kiln_node *path);
-
 #endif
