@@ -402,6 +402,37 @@ static void includes_are_limited(void **state)
     kiln_text_free(&all);
 }
 
+/* Many files are together as large as one may be: in bytes, and in nodes, of which a file that lies
+ * under another one leaves few. */
+static void includes_share_limits(void **state)
+{
+    (void)state;
+    struct kiln_text comment = {0}, nodes = {0};
+    for (int i = 0; i < 20000; i++)
+        kiln_text_add(&comment, "# %0100d\n", i);
+    kiln_text_add(&comment, "seed: 1\n");
+    write_text("in/parts/a.yaml", comment.data);
+    write_text("in/parts/b.yaml", comment.data);
+    write_text("in/parts/c.yaml", comment.data);
+    write_text("in/s.yaml", "kiln: 1\ninclude: [parts/a.yaml, parts/b.yaml, parts/c.yaml]\n");
+    expect_refusal("in/s.yaml:2:39: include: the scene and what it includes have more than the "
+                   "4194304 bytes that are allowed");
+    kiln_text_add(&nodes, "seed:\n");
+    for (int i = 0; i < 200; i++) {
+        kiln_text_add(&nodes, "  - [");
+        for (int k = 0; k < 1000; k++)
+            kiln_text_add(&nodes, "1,");
+        kiln_text_add(&nodes, "]\n");
+    }
+    write_text("in/parts/a.yaml", nodes.data);
+    write_text("in/parts/b.yaml", nodes.data);
+    write_text("in/s.yaml", "kiln: 1\nseed: 1\ninclude: [parts/a.yaml, parts/b.yaml]\n");
+    expect_refusal("in/parts/b.yaml:63:1740: more than 262144 entries in all; no more are allowed; "
+                   "included from in/s.yaml:3:25");
+    kiln_text_free(&comment);
+    kiln_text_free(&nodes);
+}
+
 /* A link out of the root must not be read, nor a FIFO waited for. */
 static void includes_are_safe(void **state)
 {
@@ -430,6 +461,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(assets_of_includes, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(includes_fail, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(includes_are_limited, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(includes_share_limits, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(includes_are_safe, enter_folder, leave_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
