@@ -347,6 +347,16 @@ static bool add_units(struct kiln_reader *reader, struct kiln_param *param)
     return true;
 }
 
+/* Replaces a link of a node and of all below it. */
+static void replace_link(struct kiln_node *node, const struct kiln_node_link *from,
+                         const struct kiln_node_link *to)
+{
+    if (node->via == from)
+        node->via = to;
+    for (struct kiln_node *child = node->first; child; child = child->next)
+        replace_link(child, from, to);
+}
+
 /* Checks a value by the parameter's row. An error of a value from outside says where the parameter
  * is declared. */
 static bool check_value(struct kiln_reader *reader, struct kiln_param *param,
@@ -360,15 +370,14 @@ static bool check_value(struct kiln_reader *reader, struct kiln_param *param,
         uint32_t whole;
         bool yes;
     } field;
-    const struct kiln_node_link *via = node->via;
-    struct kiln_node_link link = {"declared at", param->entry->key, via};
+    const struct kiln_node_link link = {"declared at", param->entry->key, NULL};
     if (node != param->fallback)
-        node->via = &link;
+        replace_link(node, NULL, &link);
     const bool is_file = param->kind == KILN_PARAM_FILE;
     const bool ok =
         param->row.type->read(reader, &param->row, node, &field) &&
         (!is_file || !reader->params->check_file || reader->params->check_file(reader, node));
-    node->via = via;
+    replace_link(node, &link, NULL);
     return ok;
 }
 

@@ -275,6 +275,9 @@ static const struct {
                     "test.yaml:10:3"},
     {"params.lenght=1", "--set params.lenght: there is no parameter 'lenght' (did you mean "
                         "'length'?)"},
+    {"params.place=[0, 1e6, 2 s]",
+     "--set params.place: params.place.2: unit 's' is wrong; allowed is m, cm or mm; "
+     "declared at test.yaml:8:3"},
     {"params={}", "--set params: this key must stand in the file"},
     {"params.length={life: [1, 2]}",
      "--set params.length: expected a number from 1 s to 30 s, found a mapping; declared at "
