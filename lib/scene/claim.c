@@ -95,7 +95,7 @@ static bool claim_includes(const struct search *s, const struct kiln_node *root)
     const bool is_list = include && include->kind == KILN_NODE_LIST;
     for (const struct kiln_node *path = is_list ? include->first : include; path;
          path = is_list ? path->next : NULL) {
-        const char *file = path->kind == KILN_NODE_SCALAR
+        const char *file = path->kind == KILN_NODE_SCALAR && *path->text != '/'
                                ? kiln_arena_format(s->arena, "%s%s", s->folder, path->text)
                                : NULL;
         if (file && !claim_contents(s, file))

@@ -240,3 +240,6 @@ $ printf 'kiln_test: 1\nscene: title.yaml\nframes: [6]\n' >title.test.yaml && ki
 $ sed -i 's/= 40 1/= 90 1/' parts/fire.yaml; kiln test title.test.yaml -q --no-report --device cpu --junit junit.xml >log; grep '^scene:' junit.xml
 1|scene: systems.flames.emit.rate: 40 1/s -&gt; 90 1/s (parts/fire.yaml:6)
 1|scene: systems.left.emit.rate: 40 1/s -&gt; 90 1/s (parts/fire.yaml:6, used at title.yaml:12)
+$ kiln test title.test.yaml -q --no-report --device cpu --junit parts/fire.yaml
+2|kiln: parts/fire.yaml: --junit would replace a file of a scene, which this command reads
+= 2
