@@ -23,7 +23,7 @@ install(EXPORT kilnTargets NAMESPACE kiln:: DESTINATION ${kiln_cmake_folder})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kilnConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/kilnConfigVersion.cmake
     DESTINATION ${kiln_cmake_folder})
 install(TARGETS kiln_decode_program kiln_openexr kiln_draco DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/kiln)
-set(kiln_api_headers kiln.h kiln_compare.h kiln_job.h kiln_limits.h kiln_sandbox.h)
+set(kiln_api_headers kiln.h kiln_compare.h kiln_job.h kiln_limits.h kiln_params.h kiln_sandbox.h)
 list(TRANSFORM kiln_api_headers PREPEND lib/)
 install(FILES ${kiln_api_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -29,6 +29,7 @@ static const struct option options[] = {
      .fallback = "a state at the start of each part of a clip, of two seconds"},
     FPS_OPTION,
     SEED_OPTION,
+    PARAMS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,

@@ -88,6 +88,7 @@ static const struct option options[] = {
      .fallback = "64, or 2 with --quick",
      .min = 2,
      .max = KILN_BENCH_MAX_PARTS},
+    PARAMS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     {.name = "device",

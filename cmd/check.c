@@ -22,11 +22,15 @@ static const struct option options[] = {
     SIZE_OPTION,
     FPS_OPTION,
     SEED_OPTION,
+    PARAMS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     LIMITS_OPTION,
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
+    {.name = "origin",
+     .kind = OPTION_FLAG,
+     .help = "Print behind each line the file and line that it comes from, or 'default'."},
     {.name = "hash", .kind = OPTION_FLAG, .help = "Print only the scene's hash."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     EVENTS_OPTION,
@@ -86,10 +90,13 @@ static void print_mesh(void *user, const struct kiln_mesh_info *info)
     print_lines(info->notes, "note: ");
 }
 
-/* Prints the hash of a scene, or the scene and its work. With `several` scenes, the path is
- * printed, too. Returns false when printing failed. */
-static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
+/* Prints the hash of a scene, or the scene and its work. With several scenes, the path is printed,
+ * too. Returns false when printing failed. */
+static bool print_scene(const struct kiln_scene *scene, const char *path,
+                        const struct arguments *arguments)
 {
+    const bool hash = arguments_flag(arguments, "hash");
+    const bool several = arguments->operand_count > 1;
     struct kiln_scene_info info = kiln_scene_info_empty();
     kiln_scene_get_info(scene, &info);
     char shown[KILN_PATH_SIZE];
@@ -100,13 +107,14 @@ static bool print_scene(const struct kiln_scene *scene, const char *path, bool h
         return printf("%s\n", info.hash) >= 0;
     if (several && printf("--- # %s\n", shown) < 0)
         return false;
-    return kiln_scene_print(scene, stdout) && kiln_scene_visit_meshes(scene, print_mesh, NULL) &&
-           print_work(&info);
+    const bool printed = arguments_flag(arguments, "origin")
+                             ? kiln_scene_print_origins(scene, stdout)
+                             : kiln_scene_print(scene, stdout);
+    return printed && kiln_scene_visit_meshes(scene, print_mesh, NULL) && print_work(&info);
 }
 
 static int run(const struct arguments *arguments)
 {
-    bool hash = arguments_last(arguments, "hash") != NULL;
     bool quiet = arguments_last(arguments, "quiet") != NULL;
     signals_install_for_job();
     const int wrong = scene_in_check(arguments, "check");
@@ -116,6 +124,7 @@ static int run(const struct arguments *arguments)
     if (!overrides_create(&overrides, arguments))
         return report_no_memory();
     struct kiln_scene_params params = overrides_scene_params(&overrides, arguments);
+    params.keep_origins = arguments_flag(arguments, "origin");
 
     int code = 0;
     for (size_t i = 0; i < arguments->operand_count; i++) {
@@ -125,11 +134,11 @@ static int run(const struct arguments *arguments)
         if (!scene) {
             int failure = report_scene_error(&error);
             code = code ? code : failure;
-        } else if (!quiet && !print_scene(scene, path, hash, arguments->operand_count > 1)) {
+        } else if (!quiet && !print_scene(scene, path, arguments)) {
             /* Either standard output failed, which report_finish reports, or memory was short. */
             int failure = ferror(stdout) ? KILN_IO : report_no_memory();
             code = code ? code : failure;
-        } else if (!quiet && !hash) {
+        } else if (!quiet && !arguments_flag(arguments, "hash")) {
             struct kiln_scene_info info = kiln_scene_info_empty();
             kiln_scene_get_info(scene, &info);
             overrides_print_length(arguments, "# ", path, &info);

@@ -146,14 +146,35 @@ static void print_entries(struct value *value, bool named)
     if (!named)
         print_part(value, "0", '.', "the first entry");
     else if (value->line->operand)
-        kiln_scene_visit_systems(value->line->operand, print_system, value, &error);
+        kiln_scene_visit_names(value->line->operand, "systems", print_system, value, &error);
+}
+
+static void print_param(void *user, const char *name)
+{
+    print_part(user, name, '=', "a parameter");
+}
+
+/* Prints "params.", or the parameters of the scene behind it. */
+static void print_params(struct value *value)
+{
+    static const char key[] = "params.";
+    struct kiln_error error = {0};
+    const size_t length = sizeof key - 1;
+    value->part = value->rest;
+    if (strncmp(value->rest, key, length) != 0) {
+        print_part(value, "params", '.', "values of parameters");
+        return;
+    }
+    value->part = value->rest + length;
+    if (value->line->operand)
+        kiln_scene_visit_names(value->line->operand, "params", print_param, value, &error);
 }
 
 static void print_key(void *user, const struct kiln_option_key *key)
 {
     struct value *value = user;
     const char *part = match_path(key->path, value->rest, &value->part);
-    if (!part)
+    if (!part || key->in_file_only)
         return;
     if (is_entry(part)) {
         print_entries(value, part[1] == 'A');
@@ -185,6 +206,7 @@ static void print_pair(struct value *value, char separator)
         skip_past(value, ';');
     const char *equals = strchr(value->rest, '=');
     if (!equals) {
+        print_params(value);
         kiln_scene_visit_keys(print_key, value);
         return;
     }

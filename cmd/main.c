@@ -35,6 +35,7 @@ const struct command *const commands[] = {&render_command,
                                           &bench_command,
                                           &new_command,
                                           &check_command,
+                                          &params_command,
                                           &devices_command,
                                           &help_command,
                                           NULL};

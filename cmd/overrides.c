@@ -31,8 +31,10 @@ static char *override_text(const struct option_use *use, bool *is_override)
 bool overrides_create(struct overrides *overrides, const struct arguments *arguments)
 {
     *overrides = (struct overrides){.texts = calloc(arguments->use_count + 1, sizeof(char *))};
-    if (!overrides->texts)
+    if (!overrides->texts || !value_list_create(&overrides->params_files, arguments, "params")) {
+        overrides_free(overrides);
         return false;
+    }
     for (size_t i = 0; i < arguments->use_count; i++) {
         bool is_override;
         char *text = override_text(&arguments->uses[i], &is_override);
@@ -52,6 +54,7 @@ void overrides_free(struct overrides *overrides)
     for (size_t i = 0; i < overrides->count; i++)
         free(overrides->texts[i]);
     free(overrides->texts);
+    value_list_free(&overrides->params_files);
     *overrides = (struct overrides){0};
 }
 
@@ -90,6 +93,8 @@ struct kiln_scene_params overrides_scene_params(const struct overrides *override
     params.asset_root = root ? root->text : NULL;
     params.overrides = (const char *const *)overrides->texts;
     params.override_count = overrides->count;
+    params.params_files = overrides->params_files.items;
+    params.params_file_count = overrides->params_files.count;
     params.stop = signals_wants_stop;
     params.budget = arguments->budget;
     params.log = report_log();

@@ -1,5 +1,5 @@
 /* Declares the options that change a scene, and turns them into overrides: --set, and --size, --fps
- * and --seed, which stand for a --set of one key. */
+ * and --seed, which stand for a --set of one key, and --params, which names files with values. */
 #ifndef KILN_CMD_OVERRIDES_H
 #define KILN_CMD_OVERRIDES_H
 
@@ -11,6 +11,13 @@
         .name = "set", .repeats = true, .kind = OPTION_PAIRS, .placeholder = "KEY=VALUE",          \
         .help = "Change a value of the scene, such as systems.fire.emit.rate=500. In a key, '*' "  \
                 "stands for every entry of a map or list."                                         \
+    }
+#define PARAMS_OPTION                                                                              \
+    {                                                                                              \
+        .name = "params", .repeats = true, .kind = OPTION_TEXT, .placeholder = "FILE",             \
+        .access = ACCESS_READ,                                                                     \
+        .help = "A file with values of the scene's parameters, YAML or JSON, such as {length: 3 "  \
+                "s}. Values of --set params.NAME=VALUE replace them."                              \
     }
 #define SIZE_OPTION                                                                                \
     {                                                                                              \
@@ -40,6 +47,7 @@
 struct overrides {
     char **texts; /* "key=value", in the order of the command line */
     size_t count;
+    struct value_list params_files; /* of --params */
 };
 
 /* Collects the overrides of a command line. Returns false when memory is short. */

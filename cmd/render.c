@@ -51,6 +51,7 @@ static const struct option options[] = {
     SIZE_OPTION,
     FPS_OPTION,
     SEED_OPTION,
+    PARAMS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
     DEVICE_OPTION,

@@ -123,8 +123,9 @@ KILN_API bool kiln_cancel_is_requested(const struct kiln_cancel *cancel); /* NUL
 struct kiln_scene;
 
 /* How a scene file is read. `overrides` are texts "dotted.key=value" that are applied in order
- * after the file; a '*' in a key names every entry of a map or list. `asset_root` is the folder
- * that relative paths of assets start at; NULL stands for the scene file's folder. */
+ * after the file; a '*' in a key names every entry of a map or list. "params.NAME=VALUE" gives a
+ * parameter a value, before the others are applied. `asset_root` is the folder that relative paths
+ * of assets start at; NULL stands for the scene file's folder. */
 struct kiln_scene_params {
     size_t size;
     const char *asset_root;
@@ -138,6 +139,11 @@ struct kiln_scene_params {
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_budget *budget;       /* the job's; must outlive the scene; NULL: no limits */
     struct kiln_log log; /* gets warnings, which begin with the scene's file and line */
+    /* Files with values of the scene's parameters, YAML or JSON: {length: 3 s, brand: "#e61e28"}.
+     * They are applied in order, before overrides "params.NAME=VALUE". */
+    const char *const *params_files;
+    bool keep_origins; /* for kiln_scene_print_origins; takes the memory of the scene's text */
+    size_t params_file_count;
 };
 KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 
@@ -556,6 +562,7 @@ KILN_API bool kiln_techniques_need_gl(const char *const *techniques, size_t coun
 #include "kiln_compare.h"
 #include "kiln_job.h"
 #include "kiln_limits.h"
+#include "kiln_params.h"
 #include "kiln_sandbox.h"
 
 #endif

@@ -72,6 +72,7 @@ struct kiln_option_key {
     const char *fallback; /* the default; NULL with `allowed`: must be given */
     const char *choices;  /* that its value may be, "true|false", perhaps beside others; or NULL */
     bool holds_keys;
+    bool in_file_only; /* it is resolved before --set */
 };
 
 /* Visits all keys in the order of the reference. The texts are valid during the visit. Returns
@@ -86,10 +87,12 @@ const char *kiln_scene_introduction(void);
  * enters the root. Such a file is read only if it lies there (kiln_scene_load). */
 bool kiln_scene_is_below(const char *path, const char *asset_root);
 
-/* Visits the names of the systems in a scene file, even if the scene is not valid. Returns false
- * with the error of kiln_scene_load when the file cannot be read as YAML. */
-bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
-                              void *user, struct kiln_error *error);
+/* Visits the names of the entries of `key`, "systems" or "params", in a scene file and its
+ * includes, even if the scene is not valid. Returns false with the error of kiln_scene_load when a
+ * file cannot be read as YAML. */
+bool kiln_scene_visit_names(const char *path, const char *key,
+                            void (*visit)(void *user, const char *name), void *user,
+                            struct kiln_error *error);
 
 /* A clip of a mesh. */
 struct kiln_mesh_clip {

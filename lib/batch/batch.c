@@ -6,18 +6,21 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "option/params.h"
 #include "option/reader.h"
 #include "option/reference.h"
 #include "option/rows.h"
 #include "option/schema.h"
 #include "suite/type.h"
 
-enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
+enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000, MAX_VALUE = 8000 };
 
 /* An entry of `jobs`, as the table fills it. */
 struct entry {
     const char *name, *scene, *asset_root, *states;
     struct kiln_batch_text output, manifest, frames, limits;
+    const char *params[KILN_MAX_PARAMS]; /* overrides "params.NAME=VALUE" */
+    uint32_t param_count;
     const char *set[MAX_OVERRIDES];
     uint32_t set_count;
     double timeout_s;
@@ -72,6 +75,51 @@ static const struct kiln_option_type kiln_type_located = {
         ROW(NO_PART, n, type, f, def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                      \
     }
 
+/* Reads a mapping of names to values of parameters as the overrides of the job. */
+static bool read_values(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    struct entry *entry = field;
+    if (node->kind != KILN_NODE_MAP || node->count > KILN_MAX_PARAMS)
+        return kiln_reader_mismatch(reader, option, node);
+    for (const struct kiln_node *value = node->first; value; value = value->next) {
+        struct kiln_text text = {0};
+        const size_t before = kiln_reader_enter(reader, value->key->text);
+        if (!kiln_option_is_name(value->key->text))
+            return kiln_reader_error(reader, value->key, "this is no name of a parameter");
+        kiln_text_add(&text, "params.%s=", value->key->text);
+        kiln_node_write(value, &text);
+        const bool is_long = text.length > MAX_VALUE;
+        const bool ok =
+            !text.failed && !is_long &&
+            kiln_reader_copy_text(reader, text.data, &entry->params[entry->param_count]);
+        kiln_text_free(&text);
+        if (is_long)
+            return kiln_reader_error(reader, value, "the value is too long");
+        if (!ok)
+            return kiln_reader_out_of_memory(reader);
+        entry->param_count++;
+        kiln_reader_leave(reader, before);
+    }
+    return true;
+}
+
+static void describe_values(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "a mapping of up to %d names of parameters to values", KILN_MAX_PARAMS);
+}
+
+static void schema_values(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"object\", \"maxProperties\": %d}", KILN_MAX_PARAMS);
+}
+
+typedef struct entry kiln_fills_values;
+static const struct kiln_option_type kiln_type_values = {
+    .read = read_values, .describe = describe_values, .schema = schema_values};
+
 ITEM(override_item, override, LIMITS(KILN_PLAIN, 1, MAX_TEXT));
 
 TABLE(job_rows) = {
@@ -81,6 +129,7 @@ TABLE(job_rows) = {
     TEXT(located, "output", output, 1, NULL,
          "Where to write, like --output, from the folder of the file of jobs. 'none' writes "
          "nothing."),
+    {ROW_OF_ALL(NO_PART, "params", values, "{}", "Values of the scene's parameters.")},
     LIST(NO_PART, "set", set, override_item, set_count, "[]", "Changes of keys of the scene."),
     TEXT(located, "frames", frames, 0, "\"\"",
          "Frames to draw, like --frames. Without it, all frames are drawn."),
@@ -123,6 +172,8 @@ bool kiln_batch_write_reference(FILE *out)
         "input, '-':\n"
         "\n"
         "    {\"scene\": \"fire.yaml\", \"output\": \"out/fire.mp4\", \"set\": [\"seed=3\"]}\n"
+        "    {\"scene\": \"title.yaml\", \"output\": \"a.mp4\", \"params\": {\"brand\": "
+        "\"#e61e28\"}}\n"
         "\n";
     return kiln_reference_write(out, introduction, rows);
 }
@@ -179,6 +230,12 @@ static bool add_job(struct kiln_batch *batch, const struct entry *entry, const c
 {
     if (!make_room(batch))
         return out_of_memory(error);
+    const size_t override_count = entry->param_count + entry->set_count;
+    const char **overrides = kiln_arena_alloc(batch->arena, override_count + 1, sizeof *overrides);
+    if (!overrides)
+        return out_of_memory(error);
+    memcpy(overrides, entry->params, entry->param_count * sizeof *overrides);
+    memcpy(overrides + entry->param_count, entry->set, entry->set_count * sizeof *overrides);
     const bool writes = strcmp(entry->output.text, "none") != 0;
     const struct kiln_batch_job job = {
         .name = *entry->name ? entry->name
@@ -191,8 +248,8 @@ static bool add_job(struct kiln_batch *batch, const struct entry *entry, const c
         .frames = text_or_null(entry->frames),
         .limits = text_or_null(entry->limits),
         .timeout_s = entry->timeout_s,
-        .overrides = entry->set,
-        .override_count = entry->set_count,
+        .overrides = overrides,
+        .override_count = override_count,
     };
     batch->jobs[batch->count++] = job;
     return (job.name && job.scene && job.output.text) || out_of_memory(error);

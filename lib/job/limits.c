@@ -8,7 +8,9 @@
 #include "base/sized.h"
 #include "base/text.h"
 #include "kiln_program.h"
-#include "option/node.h"
+#include "option/include.h"
+#include "option/node_copy.h"
+#include "option/params.h"
 #include "option/unit.h"
 #include "scene/small_steps.h"
 
@@ -175,6 +177,9 @@ static const struct size {
     {"objects", KILN_MAX_OBJECTS, .help = "Objects of the backdrop, meshes and terrain included"},
     {"meshes", KILN_MAX_MESHES, .help = "Meshes and terrains of the backdrop"},
     {"lights", KILN_MAX_LIGHTS, .help = "Lights of the backdrop"},
+    {"parameters", KILN_MAX_PARAMS, .help = "Parameters"},
+    {"includes", KILN_INCLUDE_MAX_FILES, .help = "Included files, through at most 8 files"},
+    {"copies", KILN_NODE_MAX_COPIES, .help = "Nodes that aliases, uses and parameters copy"},
     {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
     {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };

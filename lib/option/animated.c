@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "option/color.h"
+#include "option/expression.h"
 #include "option/value_curve.h"
 
 /* ---- constants ------------------------------------------------------------------------------ */
@@ -47,7 +48,7 @@ bool kiln_read_plain(struct kiln_reader *reader, const struct kiln_option *optio
     if (node->kind == KILN_NODE_SCALAR && option->type == &kiln_type_color) {
         if (kiln_color_parse(node->text, out))
             return true;
-        if (is_word(node))
+        if (is_word(node) && !kiln_expression_is(node))
             return color_error(reader, option, node);
         if (!kiln_read_float(reader, &number, node, out))
             return false;

@@ -1,6 +1,6 @@
 /* Reads YAML text into a tree of nodes, which it builds from libfyaml's events. It does not use
- * libfyaml's documents, because events allow it to refuse anchors and deep nesting before anything
- * is built. */
+ * libfyaml's documents, because events allow it to count copies and to refuse deep nesting before
+ * anything is built. */
 #include "option/node.h"
 
 #include <libfyaml.h>
@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/shown.h"
 #include "base/text.h"
+#include "option/node_anchors.h"
 
 void kiln_node_append(struct kiln_node *node, struct kiln_node *child)
 {
@@ -48,18 +49,39 @@ struct kiln_node *kiln_node_create_map(struct kiln_arena *arena, const struct ki
     return node;
 }
 
+void kiln_node_place(const struct kiln_node *node, char *out, size_t size)
+{
+    if (!node->origin->has_lines || node->line == 0)
+        snprintf(out, size, "%s", node->origin->name);
+    else
+        snprintf(out, size, "%s:%u:%u", node->origin->name, node->line + node->origin->lines_before,
+                 node->column);
+}
+
+/* Appends "; included from scene.yaml:2:11" for each link of a chain to a message. */
+static void add_links(char message[KILN_MESSAGE_SIZE], const struct kiln_node_link *link)
+{
+    char place[KILN_MESSAGE_SIZE];
+    for (; link; link = link->next) {
+        const size_t length = strlen(message), room = KILN_MESSAGE_SIZE - length;
+        kiln_node_place(link->at, place, sizeof place);
+        if (snprintf(message + length, room, "; %s %s", link->words, place) >= (int)room)
+            return;
+    }
+}
+
 bool kiln_node_error(const struct kiln_node *node, struct kiln_error *error, const char *format,
                      ...)
 {
-    char message[KILN_MESSAGE_SIZE];
+    char message[KILN_MESSAGE_SIZE], place[KILN_MESSAGE_SIZE];
     va_list args;
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    if (!node->origin->has_lines || node->line == 0)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", node->origin->name, message);
-    return kiln_error_set(error, KILN_INVALID_INPUT, "%s:%u:%u: %s", node->origin->name,
-                          node->line + node->origin->lines_before, node->column, message);
+    add_links(message, node->origin->via);
+    add_links(message, node->via);
+    kiln_node_place(node, place, sizeof place);
+    return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", place, message);
 }
 
 void kiln_node_quote(char out[64], const char *text)
@@ -96,6 +118,8 @@ struct builder {
     struct kiln_node *open[KILN_NODE_MAX_DEPTH]; /* the lists and mappings around the next event */
     struct kiln_node *key[KILN_NODE_MAX_DEPTH];  /* of a mapping open[i]: a key that has no value
                                                   * yet */
+    bool has_merge[KILN_NODE_MAX_DEPTH];         /* whether the mapping open[i] has the key << */
+    struct kiln_anchors anchors;
     uint32_t depth, total, documents;
 };
 
@@ -119,7 +143,8 @@ static struct kiln_node *create_node(struct builder *builder, struct fy_event *e
         node->line = (uint32_t)mark->line + 1;
         node->column = (uint32_t)mark->column + 1;
     }
-    if (++builder->total > KILN_NODE_MAX_TOTAL) {
+    struct kiln_node_counts *counts = builder->origin->counts;
+    if (++*(counts ? &counts->parsed : &builder->total) > KILN_NODE_MAX_TOTAL) {
         kiln_node_error(node, builder->error, "more than %d entries in all; no more are allowed",
                         KILN_NODE_MAX_TOTAL);
         return NULL;
@@ -156,8 +181,11 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
     if (node->kind != KILN_NODE_SCALAR)
         return kiln_node_error(node, error, "a key must be a word, not a list or mapping");
     kiln_node_quote(quoted, node->text);
-    if (strcmp(node->text, "<<") == 0)
-        return kiln_node_error(node, error, "merge keys are not allowed");
+    if (strcmp(node->text, "<<") == 0) {
+        if (!builder->origin->counts)
+            return kiln_node_error(node, error, "merge keys are not allowed");
+        builder->has_merge[builder->depth - 1] = true;
+    }
     if (*node->text == '\0')
         return kiln_node_error(node, error, "empty key");
     const struct kiln_node *before = kiln_node_entry(parent, node->text);
@@ -170,11 +198,20 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
     return true;
 }
 
+/* Gives a node the name of its anchor, unless the token is NULL. */
+static bool take_anchor(struct builder *builder, struct fy_token *token, struct kiln_node *node)
+{
+    size_t length = 0;
+    const char *name = token ? fy_token_get_text(token, &length) : NULL;
+    return !name ||
+           kiln_anchors_add(&builder->anchors, builder->arena, name, length, node, builder->error);
+}
+
 static bool open_collection(struct builder *builder, struct fy_event *event,
-                            enum kiln_node_kind kind)
+                            enum kiln_node_kind kind, struct fy_token *anchor)
 {
     struct kiln_node *node = create_node(builder, event, kind);
-    if (!node || !place_node(builder, node))
+    if (!node || !place_node(builder, node) || !take_anchor(builder, anchor, node))
         return false;
     if (builder->depth == KILN_NODE_MAX_DEPTH)
         return kiln_node_error(node, builder->error,
@@ -182,8 +219,43 @@ static bool open_collection(struct builder *builder, struct fy_event *event,
                                KILN_NODE_MAX_DEPTH);
     builder->open[builder->depth] = node;
     builder->key[builder->depth] = NULL;
+    builder->has_merge[builder->depth] = false;
     builder->depth++;
     return true;
+}
+
+/* Closes the innermost list or mapping. */
+static bool close_collection(struct builder *builder)
+{
+    builder->depth--;
+    return !builder->has_merge[builder->depth] ||
+           kiln_anchors_merge(builder->open[builder->depth], builder->error);
+}
+
+/* Places a copy of the node that an alias names. */
+static bool add_alias(struct builder *builder, struct fy_event *event)
+{
+    size_t length = 0;
+    const char *name = event->alias.anchor ? fy_token_get_text(event->alias.anchor, &length) : "";
+    struct kiln_node *at = create_node(builder, event, KILN_NODE_SCALAR);
+    if (!at)
+        return false;
+    at->column--; /* libfyaml's mark is behind the star */
+    const struct kiln_node *named =
+        kiln_anchors_find(&builder->anchors, at, name ? name : "", length, builder->error);
+    if (!named)
+        return false;
+    for (uint32_t i = 0; i < builder->depth; i++) {
+        if (builder->open[i] == named)
+            return kiln_node_error(at, builder->error, "the alias is inside of its own anchor");
+    }
+    struct kiln_copying copying = {builder->arena, builder->error, builder->origin->counts,
+                                   "repeated by the alias at", at};
+    struct kiln_node *copy = kiln_node_copy(&copying, named, builder->depth);
+    if (!copy)
+        return false;
+    copy->key = NULL;
+    return place_node(builder, copy);
 }
 
 /* Returns whether a text in double quotes continues in the next line by a backslash. libfyaml
@@ -222,7 +294,7 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
     /* libfyaml's mark is behind the opening quote. */
     if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
         node->column--;
-    return place_node(builder, node);
+    return take_anchor(builder, event->scalar.anchor, node) && place_node(builder, node);
 }
 
 /* Fails with an error at the position of an event. The node only carries the position. */
@@ -243,7 +315,7 @@ static bool refuse_second_document(struct builder *builder, struct fy_event *eve
 static bool refuse_anchor_or_tag(struct builder *builder, struct fy_event *event,
                                  struct fy_token *anchor, struct fy_token *tag)
 {
-    if (anchor)
+    if (anchor && !builder->origin->counts)
         return refuse(builder, event, "anchors and aliases are not allowed");
     if (tag)
         return refuse(builder, event, "tags are not allowed");
@@ -258,22 +330,23 @@ static bool take_event(struct builder *builder, struct fy_event *event)
             return refuse_second_document(builder, event);
         return true;
     case FYET_ALIAS:
-        return refuse(builder, event, "anchors and aliases are not allowed");
+        return builder->origin->counts
+                   ? add_alias(builder, event)
+                   : refuse(builder, event, "anchors and aliases are not allowed");
     case FYET_SCALAR:
         return refuse_anchor_or_tag(builder, event, event->scalar.anchor, event->scalar.tag) &&
                add_scalar(builder, event);
     case FYET_MAPPING_START:
         return refuse_anchor_or_tag(builder, event, event->mapping_start.anchor,
                                     event->mapping_start.tag) &&
-               open_collection(builder, event, KILN_NODE_MAP);
+               open_collection(builder, event, KILN_NODE_MAP, event->mapping_start.anchor);
     case FYET_SEQUENCE_START:
         return refuse_anchor_or_tag(builder, event, event->sequence_start.anchor,
                                     event->sequence_start.tag) &&
-               open_collection(builder, event, KILN_NODE_LIST);
+               open_collection(builder, event, KILN_NODE_LIST, event->sequence_start.anchor);
     case FYET_MAPPING_END:
     case FYET_SEQUENCE_END:
-        builder->depth--;
-        return true;
+        return close_collection(builder);
     default:
         return true;
     }

@@ -1,8 +1,9 @@
 /* Parses a YAML file into a tree of nodes, without regard to what its keys mean. Every node has its
  * position in the file, for error messages.
  *
- * The dialect is YAML 1.2 without anchors, aliases, merge keys, tags and further documents. Its
- * keys are plain words. So a tree cannot be larger than the text that it is parsed from. */
+ * The dialect is YAML 1.2 without tags and further documents, and its keys are plain words.
+ * Anchors, aliases and the merge key << are read where the origin counts nodes
+ * (option/node_copy.h), which limits them; without them, a tree cannot be larger than its text. */
 #ifndef KILN_OPTION_NODE_H
 #define KILN_OPTION_NODE_H
 
@@ -15,6 +16,22 @@ enum {
     KILN_NODE_MAX_TOTAL = 1 << 18, /* nodes of one text; a key takes two */
 };
 
+struct kiln_node;
+
+/* Counts the nodes of all texts that become one tree. */
+struct kiln_node_counts {
+    uint32_t parsed; /* at most KILN_NODE_MAX_TOTAL */
+    uint32_t copied; /* at most KILN_NODE_MAX_COPIES (option/node_copy.h) */
+};
+
+/* Says how a node came to its place in a tree from another one: "; included from scene.yaml:2:11".
+ * Errors print the chain of links behind their message. */
+struct kiln_node_link {
+    const char *words;                 /* "included from" */
+    const struct kiln_node *at;        /* where that is written */
+    const struct kiln_node_link *next; /* how `at` came to its place; NULL: it was always there */
+};
+
 /* Describes where a text comes from: a file, or "--set key". */
 struct kiln_origin {
     const char *name;
@@ -24,6 +41,9 @@ struct kiln_origin {
     const char *version;   /* the first line of such a file, for messages: "kiln: 1"; or NULL */
     const char *syntax;    /* for messages: "JSON" for a text of one line; NULL: "YAML" */
     uint32_t most_entries; /* of one list or mapping; 0: KILN_NODE_MAX_ENTRIES */
+    struct kiln_node_counts *counts; /* of all texts together; NULL: aliases are refused */
+    const char *folder; /* folder below the asset root that paths in the text start at; NULL: it */
+    const struct kiln_node_link *via; /* how the file was included; NULL: it was not */
 };
 
 enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };
@@ -31,6 +51,7 @@ enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };
 struct kiln_node {
     enum kiln_node_kind kind;
     bool quoted;                      /* whether a scalar is in quotes or in block style */
+    bool literal;                     /* whether '$' and '=' mean nothing in a scalar's text */
     uint32_t line, column;            /* from 1 */
     const struct kiln_origin *origin; /* must outlive the node */
     const char *text;                 /* text of a scalar; valid UTF-8 */
@@ -39,6 +60,7 @@ struct kiln_node {
     struct kiln_node *first, *last; /* entries of a list or mapping, in order */
     struct kiln_node *next;
     uint32_t count;
+    const struct kiln_node_link *via; /* how it was copied to this place; NULL: it was not */
 };
 
 /* Parses a text of `size` bytes, which a zero byte must follow. The arena owns the tree. On failure
@@ -58,9 +80,13 @@ void kiln_node_append(struct kiln_node *node, struct kiln_node *child);
 /* Creates an empty mapping with this origin. Returns NULL when memory is short. */
 struct kiln_node *kiln_node_create_map(struct kiln_arena *arena, const struct kiln_origin *origin);
 
-/* Fills the error with "file:line:column: " and the formatted message; returns false. */
+/* Fills the error with "file:line:column: ", the formatted message and the chain of links; returns
+ * false. */
 bool kiln_node_error(const struct kiln_node *node, struct kiln_error *error, const char *format,
                      ...) __attribute__((format(printf, 3, 4)));
+
+/* Writes the place of a node: "file:line:column", or the origin's name alone if it has no lines. */
+void kiln_node_place(const struct kiln_node *node, char *out, size_t size);
 
 /* Writes a short form of a text that is safe on a terminal: replaces control characters by '?' and
  * cuts off the end of a long text. */

@@ -75,6 +75,11 @@ extern const struct kiln_option_type kiln_type_map;    /* names to mappings of `
 extern const struct kiln_option_type kiln_type_list;   /* list of `item` */
 extern const struct kiln_option_type kiln_type_kind;   /* {kind: members} of `kinds`, and an enum */
 
+/* Types of keys that are resolved before the rows are read (option/include.h, use.h, params.h). */
+extern const struct kiln_option_type kiln_type_include; /* [parts/fire.yaml] */
+extern const struct kiln_option_type kiln_type_use;     /* the name of another entry */
+extern const struct kiln_option_type kiln_type_params;  /* {amount: {number: 1, max: 3}} */
+
 /* Describes one of the kinds of items that a value may be. Each kind has members of its own. */
 struct kiln_option_kind {
     const char *name; /* NULL ends a table */
@@ -142,6 +147,14 @@ struct kiln_option {
     /* for arrays: size of an item, and offset of the count in the struct of the table */
     size_t item_size, count_offset;
     size_t max_count;
+    /* of a list: it may also be a mapping of names to items, whose struct has a text for the name
+     */
+    bool is_named;
+    size_t name_offset; /* of that text in the item */
+    /* The key is written in files and never printed: what it says is printed by other keys. */
+    bool is_unprinted;
+    bool is_of_clip;        /* of a number of seconds: it may be written as "50 %" of the clip */
+    const char *instead_of; /* another key of the table, which cannot be given as well; or NULL */
 };
 
 /* Returns the field that counts the entries of an array. It lies in the struct that the row's table

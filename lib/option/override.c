@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "option/include.h"
+#include "option/merge.h"
 
 enum { MAX_PARTS = 32, MAX_KEY = 256 };
 
@@ -110,7 +112,8 @@ static struct allowed_keys allowed_under(const struct kiln_node *node, struct al
     if (!option)
         return (struct allowed_keys){0};
     return (struct allowed_keys){.members = option->members,
-                                 .is_fixed = option->type == &kiln_type_map};
+                                 .is_fixed = option->type == &kiln_type_map ||
+                                             kiln_merge_is_of_names(option, child)};
 }
 
 /* Returns the entry of a list or mapping that a part of the key names; adds it to a mapping that
@@ -136,8 +139,12 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     if (node->kind == KILN_NODE_SCALAR) /* such as "none"; a mapping replaces it */
         replace(node, &(struct kiln_node){.kind = KILN_NODE_MAP, .origin = override->origin});
     struct kiln_node *child = kiln_node_entry(node, name);
+    const struct kiln_option *row =
+        allowed.members && !allowed.is_fixed ? kiln_option_find(allowed.members, name) : NULL;
     if (child)
         return child;
+    if (row && row->instead_of)
+        kiln_node_take(node, row->instead_of);
     if (allowed.is_fixed) {
         unknown_name(override, node, name);
         return NULL;
@@ -178,10 +185,10 @@ static bool set_below(struct override *override, struct kiln_node *node,
     }
     for (struct kiln_node *child = node->first; child; child = child->next) {
         struct allowed_keys below = allowed_under(node, allowed, child);
-        /* In a list of several kinds, '*' stands for the entries that have the next part of the
-         * key. */
-        bool fits = node->kind != KILN_NODE_LIST || child->kind != KILN_NODE_MAP ||
-                    part + 1 == override->part_count ||
+        /* In a list of several kinds, or such a list with names, '*' stands for the entries that
+         * have the next part of the key. */
+        const bool is_list = node->kind == KILN_NODE_LIST || (allowed.is_fixed && !allowed.members);
+        bool fits = !is_list || child->kind != KILN_NODE_MAP || part + 1 == override->part_count ||
                     strcmp(override->parts[part + 1], "*") == 0 ||
                     kiln_node_entry(child, override->parts[part + 1]);
         if (fits && !set_below(override, child, below, part + 1))
@@ -215,11 +222,10 @@ static bool is_hex_color(const char *value)
            value[1 + strspn(value + 1, "0123456789abcdefABCDEF")] == '\0';
 }
 
-bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
-                   struct kiln_node *root, const char *text)
+struct kiln_node *kiln_override_value(struct kiln_reader *reader, const char *text,
+                                      const struct kiln_origin **origin)
 {
     struct kiln_arena *arena = reader->scratch;
-    struct override override = {.reader = reader};
     char quoted[64];
     const char *equals = strchr(text, '=');
     bool printable = equals != NULL;
@@ -227,19 +233,30 @@ bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
         printable = *c >= 0x20 && *c <= 0x7e;
     if (!printable || equals == text || equals - text > MAX_KEY) {
         kiln_node_quote(quoted, text);
-        return kiln_error_set(reader->error, KILN_USAGE, "--set %s: expected KEY=VALUE", quoted);
+        kiln_error_set(reader->error, KILN_USAGE, "--set %s: expected KEY=VALUE", quoted);
+        return NULL;
     }
-    char *key = kiln_arena_text(arena, text, (size_t)(equals - text));
-    char *name = kiln_arena_alloc(arena, MAX_KEY + 8, 1);
-    struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
+    char *name = kiln_arena_format(arena, "--set %.*s", (int)(equals - text), text);
+    struct kiln_origin *own = kiln_arena_alloc(arena, 1, sizeof *own);
     char *value = is_hex_color(equals + 1) ? kiln_arena_format(arena, "\"%s\"", equals + 1)
                                            : kiln_arena_text(arena, equals + 1, strlen(equals + 1));
-    if (!key || !name || !origin || !value)
+    if (!name || !own || !value) {
+        kiln_reader_out_of_memory(reader);
+        return NULL;
+    }
+    *own = (struct kiln_origin){.name = name, .kind = reader->origin->kind};
+    *origin = own;
+    return kiln_node_parse(arena, value, strlen(value), own, reader->error);
+}
+
+bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
+                   struct kiln_node *root, const char *text)
+{
+    struct override override = {.reader = reader};
+    override.value = kiln_override_value(reader, text, &override.origin);
+    char *key = override.value ? kiln_arena_text(reader->scratch, text, strcspn(text, "=")) : NULL;
+    if (override.value && !key)
         return kiln_reader_out_of_memory(reader);
-    snprintf(name, MAX_KEY + 8, "--set %s", key);
-    *origin = (struct kiln_origin){.name = name, .kind = reader->origin->kind};
-    override.origin = origin;
-    override.value = kiln_node_parse(arena, value, strlen(value), origin, reader->error);
     if (!override.value || !split_key(&override, key) ||
         !set_below(&override, root, (struct allowed_keys){.members = rows}, 0))
         return false;

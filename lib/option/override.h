@@ -10,4 +10,9 @@
 bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
                    struct kiln_node *root, const char *text);
 
+/* Parses "key=value" and returns the value. *origin becomes the origin for messages, "--set key".
+ * NULL with an error, with KILN_USAGE for a text of another form. */
+struct kiln_node *kiln_override_value(struct kiln_reader *reader, const char *text,
+                                      const struct kiln_origin **origin);
+
 #endif

@@ -17,11 +17,20 @@ void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *
                         const void *base)
 {
     for (const struct kiln_option *row = members; row->name; row++) {
-        if (!kiln_print_wants(printer, row, base))
+        if (row->is_unprinted || !kiln_print_wants(printer, row, base))
             continue;
         kiln_print_key(printer, row->name);
         row->type->print(printer, row, (const char *)base + row->offset);
     }
+}
+
+void kiln_print_quoted(struct kiln_printer *printer, const char *text)
+{
+    struct kiln_text doubled = {0};
+    kiln_text_add(&doubled, "%s%s", *text == '$' ? "$" : "", text);
+    kiln_text_add_json(&printer->text, doubled.data ? doubled.data : "");
+    printer->text.failed |= doubled.failed;
+    kiln_text_free(&doubled);
 }
 
 void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
@@ -29,6 +38,6 @@ void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *opt
 {
     (void)option;
     kiln_text_add(&printer->text, " ");
-    kiln_text_add_json(&printer->text, *(const char *const *)field);
+    kiln_print_quoted(printer, *(const char *const *)field);
     kiln_text_add(&printer->text, "\n");
 }

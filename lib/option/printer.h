@@ -26,6 +26,10 @@ bool kiln_print_wants(const struct kiln_printer *printer, const struct kiln_opti
 void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *members,
                         const void *base);
 
+/* Adds a text in quotes. A '$' at its start is doubled, so that it is no parameter when it is
+ * read. */
+void kiln_print_quoted(struct kiln_printer *printer, const char *text);
+
 /* Prints a text in quotes. This is the `print` function of types whose field is a text. */
 void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
                      const void *field);

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "option/expression.h"
 
 /* ---- path and errors ------------------------------------------------------------------------- */
 
@@ -38,6 +39,14 @@ void kiln_reader_leave(struct kiln_reader *reader, size_t length)
     reader->path[length] = '\0';
 }
 
+/* Appends a path of names that are known to be short, such as "emit.rate". */
+static void enter_rest(struct kiln_reader *reader, const char *path)
+{
+    const size_t before = reader->path_length;
+    snprintf(reader->path + before, sizeof reader->path - before, "%s%s", before ? "." : "", path);
+    reader->path_length = strlen(reader->path);
+}
+
 bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node, const char *format,
                        ...)
 {
@@ -56,8 +65,8 @@ bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node,
     return kiln_node_error(node, reader->error, "%s: %s", reader->path, message);
 }
 
-/* Returns the entry with this number, or NULL if the name is no number or the list is too short. */
-static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
+/* Returns the entry with this number, or NULL if the name is no number or there are too few. */
+static const struct kiln_node *entry_of_number(const struct kiln_node *list, const char *name)
 {
     const struct kiln_node *entry = list->first;
     if (*name == '\0' || name[strspn(name, "0123456789")] != '\0')
@@ -67,27 +76,40 @@ static const struct kiln_node *entry_of_list(const struct kiln_node *list, const
     return entry;
 }
 
+/* Returns the entry of a list or mapping that a part of a path names. Entries of a mapping that
+ * stands for a list (rows.h, NAMED_LIST) have numbers, too; *name then becomes the entry's name. */
+static const struct kiln_node *find_part(const struct kiln_node *node, const char **name)
+{
+    if (node->kind == KILN_NODE_LIST)
+        return entry_of_number(node, *name);
+    const struct kiln_node *found = kiln_node_entry(node, *name);
+    if (!found && node->kind == KILN_NODE_MAP && (found = entry_of_number(node, *name)))
+        *name = found->key->text;
+    return found;
+}
+
 /* Sets the error to a message about the node that a path leads to, or about the last one on the way
  * that exists. */
 static void set_error_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                          const char *format, va_list args)
 {
-    char message[KILN_MESSAGE_SIZE], name[64];
+    char message[KILN_MESSAGE_SIZE], part[64];
     vsnprintf(message, sizeof message, format, args);
     const struct kiln_node *node = root;
-    for (const char *part = path; node && *part;) {
-        size_t length = strcspn(part, ".");
-        snprintf(name, sizeof name, "%.*s", (int)length, part);
-        const struct kiln_node *next =
-            node->kind == KILN_NODE_LIST ? entry_of_list(node, name) : kiln_node_entry(node, name);
+    kiln_reader_leave(reader, 0);
+    while (*path) {
+        size_t length = strcspn(path, ".");
+        snprintf(part, sizeof part, "%.*s", (int)length, path);
+        const char *name = part;
+        const struct kiln_node *next = find_part(node, &name);
         if (!next)
             break;
         node = next;
-        part += length + (part[length] == '.');
+        kiln_reader_enter(reader, name);
+        path += length + (path[length] == '.');
     }
-    kiln_reader_leave(reader, 0);
-    snprintf(reader->path, sizeof reader->path, "%s", path);
-    reader->path_length = strlen(reader->path);
+    if (*path)
+        enter_rest(reader, path);
     kiln_reader_error(reader, node, "%s", message);
 }
 
@@ -196,11 +218,17 @@ static bool check_keys(struct kiln_reader *reader, const struct kiln_option *mem
                        const struct kiln_node *node)
 {
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
-        if (kiln_option_find(members, entry->key->text))
+        const struct kiln_option *row = kiln_option_find(members, entry->key->text);
+        if (row && row->instead_of && kiln_node_entry(node, row->instead_of)) {
+            kiln_reader_enter(reader, entry->key->text);
+            return kiln_reader_error(reader, entry->key, "cannot be given together with `%s`",
+                                     row->instead_of);
+        }
+        if (row)
             continue;
         const char *names[64];
         size_t count = 0;
-        for (const struct kiln_option *row = members; row->name && count < 64; row++)
+        for (row = members; row->name && count < 64; row++)
             names[count++] = row->name;
         char suggestion[512];
         kiln_option_suggest(suggestion, sizeof suggestion, entry->key->text, names, count);
@@ -291,16 +319,30 @@ static bool unit_error(struct kiln_reader *reader, const struct kiln_option *opt
 }
 
 static bool limit_error(struct kiln_reader *reader, const struct kiln_option *option,
-                        const struct kiln_node *node)
+                        const struct kiln_node *node, double value)
 {
-    char quoted[64];
+    char quoted[64], result[48], computed[64] = "";
     kiln_node_quote(quoted, node->text);
     struct kiln_text limits = {0};
     kiln_option_describe_limits(option, &limits);
-    kiln_reader_error(reader, node, "%s is out of range; allowed is%s", quoted,
+    if (kiln_expression_is(node)) {
+        kiln_unit_print_double(result, option->dimension, value);
+        snprintf(computed, sizeof computed, ", which is %s,", result);
+    }
+    kiln_reader_error(reader, node, "%s%s is out of range; allowed is%s", quoted, computed,
                       limits.data ? limits.data : "");
     kiln_text_free(&limits);
     return false;
+}
+
+/* Converts a part of the clip, such as "50 %", to seconds. */
+static bool read_part_of_clip(struct kiln_reader *reader, const struct kiln_node *node,
+                              double *value)
+{
+    if (reader->clip_s <= 0)
+        return kiln_reader_error(reader, node, "the length of the clip is not known here");
+    *value = *value / 100 * reader->clip_s;
+    return true;
 }
 
 /* Reads a number without checking its limits. */
@@ -310,6 +352,8 @@ static bool read_si(struct kiln_reader *reader, const struct kiln_option *option
     const char *unit = "";
     if (node->kind != KILN_NODE_SCALAR)
         return kiln_reader_mismatch(reader, option, node);
+    if (kiln_expression_is(node))
+        return kiln_expression_read(reader, option, node, value);
     if (!node->quoted && is_named_number(node->text))
         return kiln_reader_error(reader, node, "%s is not a finite number", node->text);
     if (!kiln_unit_split(node->text, value, &unit))
@@ -323,6 +367,8 @@ static bool read_si(struct kiln_reader *reader, const struct kiln_option *option
         return kiln_reader_error(reader, node, "an angle needs its unit: %s deg%s or %s rad%s",
                                  node->text, rate, node->text, rate);
     }
+    if (option->is_of_clip && strcmp(unit, "%") == 0)
+        return read_part_of_clip(reader, node, value);
     if (!kiln_unit_to_si(option->dimension, unit, value))
         return unit_error(reader, option, node, unit);
     return true;
@@ -334,7 +380,7 @@ bool kiln_read_number(struct kiln_reader *reader, const struct kiln_option *opti
     if (!read_si(reader, option, node, value))
         return false;
     if (!(*value >= option->min && *value <= option->max))
-        return limit_error(reader, option, node);
+        return limit_error(reader, option, node, *value);
     return true;
 }
 
@@ -348,7 +394,7 @@ bool kiln_read_float(struct kiln_reader *reader, const struct kiln_option *optio
      * The first test makes the conversion to float defined. */
     if (!(fabs(number) <= 1e30) || (float)number < (float)option->min ||
         (float)number > (float)option->max)
-        return limit_error(reader, option, node);
+        return limit_error(reader, option, node, number);
     /* Some stages flush denormals and some do not (shared/exact.h), so no value is a denormal. */
     *value = fabs(number) < 0x1p-100 ? 0.0f : (float)number;
     return true;

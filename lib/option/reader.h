@@ -6,6 +6,7 @@
 #include "option/option.h"
 
 struct kiln_default; /* holds the tree of a default */
+struct kiln_params;
 
 /* The caller sets the members above the blank line; all others are 0 at the start. */
 struct kiln_reader {
@@ -15,6 +16,9 @@ struct kiln_reader {
     struct kiln_error *error;
     const struct kiln_log *log; /* gets warnings; NULL: nobody does */
     void *target; /* the struct that the whole table fills, for types that need other parts of it */
+    struct kiln_node_counts *counts; /* of the nodes of the tree; NULL: nothing is copied */
+    struct kiln_params *params;      /* that expressions may name; NULL: none */
+    double clip_s;                   /* length of the clip, for times in "%"; 0: it is not known */
 
     uint32_t item;  /* number of the entry of a list that is being read, of the innermost list */
     char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */

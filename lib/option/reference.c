@@ -48,6 +48,8 @@ static void visit_row(struct walk *walk, const char *path, const struct kiln_opt
 {
     struct kiln_option_key key = {.path = path, .help = row->help};
     key.holds_keys = row->members || row->kinds || row->item;
+    key.in_file_only = row->type == &kiln_type_include || row->type == &kiln_type_use ||
+                       row->type == &kiln_type_params;
     if (row->type == &kiln_type_group) {
         walk->visit(walk->user, &key);
         return;

@@ -172,6 +172,19 @@
         ROW_AT(part, n, list, OFFSET_OF_ARRAY(f, item_), def, h),                                  \
             .item = &(item_), .item_size = sizeof(item_##_fills), COUNTED(f, count)                \
     }
+/* NAMED_LIST is a list that may also be a mapping of names to its items, whose struct has a text
+ * `name`. */
+#define NAMED_LIST(part, n, f, item_, count, def, h)                                               \
+    {                                                                                              \
+        ROW_AT(part, n, list, OFFSET_OF_ARRAY(f, item_), def, h),                                  \
+            .item = &(item_), .item_size = sizeof(item_##_fills), COUNTED(f, count),               \
+            .is_named = true, .name_offset = OFFSET_IN(item_##_fills, name, text)                  \
+    }
+/* RESOLVED is a key that is resolved before rows are read: type, name, help. */
+#define RESOLVED(part, type_, n, h)                                                                \
+    {                                                                                              \
+        ROW_AT(part, n, type_, 0, "none", h), .is_unprinted = true                                 \
+    }
 /* MAP is a mapping of names, with members instead of an item. The struct of an entry begins
  * with `const char *name`. */
 #define MAP(part, n, f, rows, count, def, h)                                                       \

@@ -5,6 +5,8 @@
 
 #include "option/value_form.h"
 
+/* The texts that stand for a value of any kind in a scene: a parameter, or arithmetic. */
+#define NAMED_PATTERN  "^[$][A-Za-z_][A-Za-z0-9_]*$|^="
 #define NUMBER_PATTERN "[-+]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
 
 void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out)
@@ -17,7 +19,7 @@ void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out)
         min[0] = max[0] = '0';
         min[1] = max[1] = '\0';
     }
-    if (*units == '\0') {
+    if (*units == '\0' && !option->parts) {
         kiln_text_add(out, "{\"type\": \"number\", \"minimum\": %s, \"maximum\": %s}", min, max);
         return;
     }
@@ -26,7 +28,12 @@ void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out)
                   "\"pattern\": ",
                   min, max);
     struct kiln_text pattern = {0};
-    kiln_text_add(&pattern, "^" NUMBER_PATTERN "%s$", units);
+    if (option->parts && *units)
+        kiln_text_add(&pattern, "^(" NUMBER_PATTERN "%s)$|" NAMED_PATTERN, units);
+    else if (option->parts)
+        kiln_text_add(&pattern, NAMED_PATTERN);
+    else
+        kiln_text_add(&pattern, "^" NUMBER_PATTERN "%s$", units);
     kiln_text_add_json(out, pattern.data ? pattern.data : "");
     kiln_text_add(out, "}");
     out->failed |= pattern.failed;
@@ -38,17 +45,31 @@ void kiln_schema_number_pattern(enum kiln_dimension dimension, struct kiln_text 
     char units[64];
     struct kiln_text pattern = {0};
     kiln_unit_pattern(units, dimension);
-    kiln_text_add(&pattern, "^" NUMBER_PATTERN "(%s)?$", units);
+    kiln_text_add(&pattern, "^" NUMBER_PATTERN "(%s%s)?$|" NAMED_PATTERN, units,
+                  dimension == KILN_SECONDS ? "| *%" : "");
     kiln_text_add_json(out, pattern.data ? pattern.data : "");
     out->failed |= pattern.failed;
     kiln_text_free(&pattern);
+}
+
+/* Returns whether a value may be a parameter or arithmetic: whether the row is one of a scene,
+ * whose rows have parts, and stands for a value. */
+static bool may_be_named(const struct kiln_option *row)
+{
+    return row->parts && row->type != &kiln_type_group && row->type != &kiln_type_map &&
+           row->type != &kiln_type_include && row->type != &kiln_type_params;
 }
 
 /* Appends the schema of the row's type, with the row's help as its description. */
 static void add_property(const struct kiln_option *row, struct kiln_text *out)
 {
     struct kiln_text schema = {0};
+    if (may_be_named(row))
+        kiln_text_add(&schema, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": "
+                               "\"" NAMED_PATTERN "\"}, ");
     row->type->schema(row, &schema);
+    if (may_be_named(row))
+        kiln_text_add(&schema, "]}");
     kiln_text_add_json(out, row->name);
     kiln_text_add(out, ": {\"description\": ");
     kiln_text_add_json(out, row->help);
@@ -58,13 +79,14 @@ static void add_property(const struct kiln_option *row, struct kiln_text *out)
     kiln_text_free(&schema);
 }
 
-void kiln_schema_members(const struct kiln_option *members, const char *variant,
-                         bool variant_required, struct kiln_text *out)
+static void add_members(const struct kiln_option *members, const char *variant,
+                        bool variant_required, bool is_root, struct kiln_text *out)
 {
     kiln_text_add(out, "{\"type\": \"object\", \"additionalProperties\": false, \"required\": [");
     const char *separator = "";
     for (const struct kiln_option *row = members; row->name; row++) {
-        if (row->fallback)
+        /* In a scene, what must be given may be in another file or entry, but for its version. */
+        if (row->fallback || (row->parts && !is_root))
             continue;
         kiln_text_add(out, "%s\"%s\"", separator, row->name);
         separator = ", ";
@@ -83,10 +105,16 @@ void kiln_schema_members(const struct kiln_option *members, const char *variant,
     kiln_text_add(out, "}}");
 }
 
+void kiln_schema_members(const struct kiln_option *members, const char *variant,
+                         bool variant_required, struct kiln_text *out)
+{
+    add_members(members, variant, variant_required, false, out);
+}
+
 bool kiln_schema_write(FILE *out, const char *title, const struct kiln_option *rows)
 {
     struct kiln_text text = {0}, root = {0};
-    kiln_schema_members(rows, NULL, false, &root);
+    add_members(rows, NULL, false, true, &root);
     kiln_text_add(&text,
                   "{\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
                   "\"title\": \"%s\",\n\"definitions\": {",

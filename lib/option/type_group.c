@@ -92,6 +92,7 @@ const struct kiln_option_type kiln_type_switch = {
 /* ---- map: named entries; an entry's struct starts with its name ------------------------------ */
 
 enum { MAX_NAME = 32 };
+#define NAME_PATTERN "^[A-Za-z_][A-Za-z0-9_-]{0,%d}$"
 
 static bool is_letter(char c)
 {
@@ -122,6 +123,14 @@ static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_opt
     return NULL;
 }
 
+static bool refuse_name(struct kiln_reader *reader, const struct kiln_node *key)
+{
+    return kiln_reader_error(reader, key,
+                             "a name starts with a letter and has at most %d letters, digits, '_' "
+                             "and '-'",
+                             MAX_NAME);
+}
+
 static bool read_map(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, void *field)
 {
@@ -135,10 +144,7 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
         const char *name = entry->key->text;
         size_t before = kiln_reader_enter(reader, name);
         if (!kiln_option_is_name(name))
-            return kiln_reader_error(reader, entry->key,
-                                     "a name starts with a letter and has at most %d letters, "
-                                     "digits, '_' and '-'",
-                                     MAX_NAME);
+            return refuse_name(reader, entry->key);
         if (!kiln_reader_copy_text(reader, name, item) ||
             !kiln_read_members(reader, option->members, entry, item))
             return false;
@@ -173,7 +179,7 @@ static void schema_map(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_text_add(out,
                   "{\"type\": \"object\", \"maxProperties\": %zu, \"propertyNames\": "
-                  "{\"pattern\": \"^[A-Za-z_][A-Za-z0-9_-]{0,%d}$\"}, \"additionalProperties\": ",
+                  "{\"pattern\": \"" NAME_PATTERN "\"}, \"additionalProperties\": ",
                   option->max_count, MAX_NAME - 1);
     kiln_schema_members(option->members, NULL, false, out);
     kiln_text_add(out, "}");
@@ -188,10 +194,21 @@ const struct kiln_option_type kiln_type_map = {
 
 /* ---- list ----------------------------------------------------------------------------------- */
 
+/* Reads the name of an entry of a list that is written as a mapping. */
+static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
+                      const struct kiln_node *key, void *item)
+{
+    if (!kiln_option_is_name(key->text))
+        return refuse_name(reader, key);
+    return kiln_reader_copy_text(reader, key->text,
+                                 (const char **)((char *)item + option->name_offset));
+}
+
 static bool read_list(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
-    if (node->kind != KILN_NODE_LIST)
+    const bool of_names = option->is_named && node->kind == KILN_NODE_MAP;
+    if (node->kind != KILN_NODE_LIST && !of_names)
         return kiln_reader_mismatch(reader, option, node);
     uint32_t *count = begin_entries(reader, option, node, field);
     const uint32_t outer = reader->item;
@@ -199,7 +216,10 @@ static bool read_list(struct kiln_reader *reader, const struct kiln_option *opti
         return false;
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         void *item = (char *)field + *count * option->item_size;
-        size_t before = kiln_reader_enter_index(reader, *count);
+        size_t before = of_names ? kiln_reader_enter(reader, entry->key->text)
+                                 : kiln_reader_enter_index(reader, *count);
+        if (of_names && !read_name(reader, option, entry->key, item))
+            return false;
         reader->item = *count;
         if (!option->item->type->read(reader, option->item, entry, item))
             return false;
@@ -210,6 +230,15 @@ static bool read_list(struct kiln_reader *reader, const struct kiln_option *opti
     return true;
 }
 
+/* Returns the name of an entry of a list that was written as a mapping; otherwise NULL. */
+static const char *name_of(const struct kiln_option *option, const void *item)
+{
+    const char *name = NULL;
+    if (option->is_named)
+        memcpy(&name, (const char *)item + option->name_offset, sizeof name);
+    return name;
+}
+
 static void print_list(struct kiln_printer *printer, const struct kiln_option *option,
                        const void *field)
 {
@@ -218,10 +247,14 @@ static void print_list(struct kiln_printer *printer, const struct kiln_option *o
     printer->indent += 2;
     for (uint32_t i = 0; i < count; i++) {
         const void *item = (const char *)field + i * option->item_size;
+        const char *name = name_of(option, item);
         if (!kiln_print_wants(printer, option->item, item))
             continue;
-        kiln_text_add(&printer->text, "%*s-", (int)printer->indent, "");
-        printer->after_dash = true;
+        if (name)
+            kiln_print_key(printer, name);
+        else
+            kiln_text_add(&printer->text, "%*s-", (int)printer->indent, "");
+        printer->after_dash = !name;
         option->item->type->print(printer, option->item, item);
     }
     printer->after_dash = false;
@@ -230,15 +263,27 @@ static void print_list(struct kiln_printer *printer, const struct kiln_option *o
 
 static void describe_list(const struct kiln_option *option, struct kiln_text *out)
 {
-    kiln_text_add(out, "a list of up to %zu: ", option->max_count);
+    kiln_text_add(out, "a list of up to %zu%s: ", option->max_count,
+                  option->is_named ? ", or a mapping of names to these" : "");
     option->item->type->describe(option->item, out);
 }
 
 static void schema_list(const struct kiln_option *option, struct kiln_text *out)
 {
-    kiln_text_add(out, "{\"type\": \"array\", \"maxItems\": %zu, \"items\": ", option->max_count);
-    option->item->type->schema(option->item, out);
-    kiln_text_add(out, "}");
+    struct kiln_text item = {0};
+    option->item->type->schema(option->item, &item);
+    const char *of = item.data ? item.data : "";
+    if (option->is_named)
+        kiln_text_add(out,
+                      "{\"anyOf\": [{\"type\": \"object\", \"maxProperties\": %zu, "
+                      "\"propertyNames\": {\"pattern\": \"" NAME_PATTERN
+                      "\"}, \"additionalProperties\": {\"anyOf\": [%s, {\"type\": \"object\", "
+                      "\"required\": [\"use\"]}]}}, ",
+                      option->max_count, MAX_NAME - 1, of);
+    kiln_text_add(out, "{\"type\": \"array\", \"maxItems\": %zu, \"items\": %s}%s",
+                  option->max_count, of, option->is_named ? "]}" : "");
+    out->failed |= item.failed;
+    kiln_text_free(&item);
 }
 
 const struct kiln_option_type kiln_type_list = {

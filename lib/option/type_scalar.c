@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "option/expression.h"
 #include "option/printer.h"
 #include "option/reader.h"
 #include "option/schema.h"
@@ -102,6 +103,22 @@ const struct kiln_option_type kiln_type_integer = {
 
 /* ---- rational ------------------------------------------------------------------------------- */
 
+/* Reads a rate that arithmetic gives, which must have few decimal places, such as 12.5. */
+static bool read_computed_rational(struct kiln_reader *reader, const struct kiln_option *option,
+                                   const struct kiln_node *node, struct kiln_rational *rational)
+{
+    char text[32];
+    double value = 0;
+    uint64_t num = 0, den = 1;
+    if (!kiln_read_number(reader, option, node, &value))
+        return false;
+    kiln_unit_print_number(text, value);
+    if (!kiln_unit_parse_rational(text, &num, &den))
+        return kiln_reader_mismatch(reader, option, node);
+    *rational = (struct kiln_rational){(uint32_t)num, (uint32_t)den};
+    return true;
+}
+
 static bool read_rational(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node, void *field)
 {
@@ -113,6 +130,8 @@ static bool read_rational(struct kiln_reader *reader, const struct kiln_option *
         return true;
     }
     uint64_t num = 0, den = 1;
+    if (kiln_expression_is(node))
+        return read_computed_rational(reader, option, node, rational);
     bool is_text = node->quoted && !strchr(node->text, '/');
     if (is_text || !kiln_unit_parse_rational(node->text, &num, &den))
         return kiln_reader_mismatch(reader, option, node);

@@ -57,8 +57,7 @@ static const char *const choices[KILN_DIMENSION_COUNT] = {
     [KILN_STOPS] = "stops",
 };
 
-/* Returns the unit that numbers of a dimension are printed with, or "" if there is none. */
-static const char *unit_name(enum kiln_dimension dimension)
+const char *kiln_unit_name(enum kiln_dimension dimension)
 {
     if (dimension == KILN_FRACTION)
         return "";
@@ -138,6 +137,44 @@ bool kiln_unit_to_si(enum kiln_dimension dimension, const char *unit, double *nu
     return false;
 }
 
+static bool is_letter_or_digit(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* Returns the row of the longest unit that a text begins with, or NULL. */
+static const struct unit *find_unit(const char *text)
+{
+    const struct unit *found = NULL;
+    size_t longest = 0;
+    for (size_t i = 0; i < UNIT_COUNT; i++) {
+        const size_t length = strlen(units[i].name);
+        if (length <= longest || strncmp(text, units[i].name, length) != 0 ||
+            (text[length - 1] != '%' && is_letter_or_digit(text[length])))
+            continue;
+        found = &units[i];
+        longest = length;
+    }
+    return found;
+}
+
+size_t kiln_unit_find(const char *text, enum kiln_dimension *dimension)
+{
+    const struct unit *unit = find_unit(text);
+    if (unit)
+        *dimension = unit->dimension;
+    return unit ? strlen(unit->name) : 0;
+}
+
+bool kiln_unit_to_si_of(const char *text, size_t length, double *number)
+{
+    const struct unit *unit = find_unit(text);
+    if (!unit || strlen(unit->name) != length)
+        return false;
+    *number = *number * unit->multiply / unit->divide;
+    return true;
+}
+
 bool kiln_text_to_seconds(const char *text, double *seconds)
 {
     const char *unit;
@@ -178,7 +215,7 @@ void kiln_unit_print(char out[48], enum kiln_dimension dimension, float value)
         }
     }
     print_float(number, value);
-    add_unit(out, number, unit_name(dimension));
+    add_unit(out, number, kiln_unit_name(dimension));
 }
 
 void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double value)
@@ -189,7 +226,7 @@ void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double 
         return;
     }
     kiln_unit_print_number(number, value);
-    add_unit(out, number, unit_name(dimension));
+    add_unit(out, number, kiln_unit_name(dimension));
 }
 
 void kiln_unit_pattern(char out[64], enum kiln_dimension dimension)

@@ -49,6 +49,17 @@ bool kiln_unit_split(const char *text, double *number, const char **unit);
 /* Converts a number in a unit to SI. Returns false if the unit is not of this dimension. */
 bool kiln_unit_to_si(enum kiln_dimension dimension, const char *unit, double *number);
 
+/* Returns the length of the longest unit that a text begins with, and the dimension of that unit; 0
+ * if it begins with none. A unit ends where no letter or digit follows. */
+size_t kiln_unit_find(const char *text, enum kiln_dimension *dimension);
+
+/* Converts a number in the unit that a text begins with, of a length that kiln_unit_find returned,
+ * to SI. */
+bool kiln_unit_to_si_of(const char *text, size_t length, double *number);
+
+/* Returns the unit that numbers of a dimension are printed with, or "" if there is none. */
+const char *kiln_unit_name(enum kiln_dimension dimension);
+
 /* Writes a number in SI with its unit, so that reading the text gives the same float. Angles are
  * written in degrees if that is exact, otherwise in radians. */
 void kiln_unit_print(char out[48], enum kiln_dimension dimension, float value);

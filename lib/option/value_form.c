@@ -16,13 +16,20 @@
         .max = max_                                                                                \
     }
 
-const struct kiln_option kiln_option_time = AXIS("time", KILN_SECONDS, -100000, 1000000);
+/* A time, which may also be a part of the clip. */
+#define TIME_AXIS                                                                                  \
+    {                                                                                              \
+        .name = "time", .type = &kiln_type_number, .dimension = KILN_SECONDS, .min = -100000,      \
+        .max = 1000000, .is_of_clip = true                                                         \
+    }
+
+const struct kiln_option kiln_option_time = TIME_AXIS;
 
 const struct kiln_value_clock kiln_value_clocks[KILN_VALUE_CLOCKS] = {
     {.name = "keys",
      .clock = KILN_CLOCK_TIME,
      .allowed = KILN_ALLOW_TIME,
-     .axis = AXIS("time", KILN_SECONDS, -100000, 1000000),
+     .axis = TIME_AXIS,
      .is_short = true},
     {.name = "life",
      .clock = KILN_CLOCK_LIFE,

@@ -249,6 +249,11 @@ static void write_causes(FILE *out, const struct kiln_result *result)
         write_text(out, *change->before ? change->before : "(nothing)");
         fputs(" -&gt; ", out);
         write_text(out, *change->after ? change->after : "(nothing)");
+        if (*change->place) {
+            fputs(" (", out);
+            write_text(out, change->place);
+            fputs(")", out);
+        }
         fputs("\n", out);
     }
     if (*result->rerun) {

@@ -107,8 +107,8 @@ static void add_changes(struct kiln_json *json, const struct kiln_result *result
     kiln_json_begin_array(json, "changes");
     for (size_t i = 0; i < result->change_count; i++) {
         const struct kiln_result_change *change = &result->changes[i];
-        const char *const texts[] = {change->key, change->before, change->after};
-        kiln_json_strings(json, NULL, texts, 3);
+        const char *const texts[] = {change->key, change->before, change->after, change->place};
+        kiln_json_strings(json, NULL, texts, 4);
     }
     kiln_json_end(json);
 }

@@ -141,36 +141,58 @@ static bool check_contents(struct kiln_reader *reader, const struct kiln_node *n
     return fail_as(reader, &error);
 }
 
-bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
-                          kiln_check_file *check, const char **asset)
+bool kiln_asset_join(struct kiln_reader *reader, const struct kiln_node *node,
+                     char path[KILN_PATH_SIZE])
 {
-    const char *root = kiln_reader_scene(reader)->asset_root;
+    const char *folder = node->origin->folder;
     char quoted[64];
     kiln_node_quote(quoted, node->text);
-    if (node->text[0] == '/' || climbs_out(node->text))
+    const int length = snprintf(path, KILN_PATH_SIZE, "%s%s%s", folder ? folder : "",
+                                folder ? "/" : "", node->text);
+    if (length >= KILN_PATH_SIZE)
+        return kiln_reader_error(reader, node, "the path of a file is too long");
+    if (node->text[0] == '/' || climbs_out(path))
         return kiln_reader_error(reader, node,
                                  "'%s' is outside the asset root; a path starts at the scene's "
                                  "folder and stays below it",
                                  quoted);
+    return true;
+}
+
+const char *kiln_asset_reason(int reason, char room[256])
+{
+    char text[128];
+    snprintf(room, 256, "%s%s", strerror_r(reason, text, sizeof text),
+             reason == ENOENT ? "; a path starts at the scene's folder, or at the asset root that "
+                                "is given instead"
+                              : "");
+    return room;
+}
+
+bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
+                          kiln_check_file *check, const char **asset)
+{
+    const char *root = kiln_reader_scene(reader)->asset_root;
+    char quoted[64], path[KILN_PATH_SIZE];
+    kiln_node_quote(quoted, node->text);
+    if (!kiln_asset_join(reader, node, path))
+        return false;
 
     struct kiln_text joined = {0};
-    kiln_text_add(&joined, "%s/%s", root, node->text);
+    kiln_text_add(&joined, "%s/%s", root, path);
     char *real = joined.failed ? NULL : realpath(joined.data, NULL);
     const int reason = joined.failed ? ENOMEM : errno;
     kiln_text_free(&joined);
     if (!real && reason == ENOMEM)
         return kiln_reader_out_of_memory(reader);
-    if (leads_out(root, node->text, real)) {
+    if (leads_out(root, path, real)) {
         free(real);
         return kiln_reader_error(reader, node, "'%s' leads outside the asset root", quoted);
     }
     if (!real) {
-        char text[128];
-        return kiln_reader_error(reader, node, "cannot open '%s': %s%s", quoted,
-                                 strerror_r(reason, text, sizeof text),
-                                 reason == ENOENT ? "; a path starts at the scene's folder, or at "
-                                                    "the asset root that is given instead"
-                                                  : "");
+        char room[256];
+        return kiln_reader_error(reader, node, "cannot open '%s': %s", quoted,
+                                 kiln_asset_reason(reason, room));
     }
     struct stat status;
     bool ok = false;

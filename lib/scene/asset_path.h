@@ -13,6 +13,15 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
 /* Reads "builtin:name", or the path of an image or video file, which is made absolute. */
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
+/* Makes the path of a file that a scalar names relative to the asset root: it starts at the folder
+ * of the scalar's file. False with an error where the path is absolute or leaves the root by "..".
+ */
+bool kiln_asset_join(struct kiln_reader *reader, const struct kiln_node *node,
+                     char path[KILN_PATH_SIZE]);
+
+/* Returns the words that say why a path could not be opened below the asset root, by errno. */
+const char *kiln_asset_reason(int reason, char room[256]);
+
 /* Checks the content of a file; path is absolute. */
 typedef bool kiln_check_file(struct kiln_loader *loader, const char *path,
                              struct kiln_error *error);

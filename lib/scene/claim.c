@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "kiln_program.h"
-#include "option/node.h"
+#include "option/include.h"
 #include "scene/asset_path.h"
 
 bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what)
@@ -35,9 +35,13 @@ bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims
 /* ---- without loading the scene --------------------------------------------------------------- */
 
 struct search {
-    const char *folder; /* folder of the scene, with its slash; "": the working folder */
+    const char
+        *folder; /* folder of the file that is read, with its slash; "": the working folder */
+    struct kiln_arena *arena;
     struct kiln_claims *claims;
     struct kiln_error *error;
+    uint32_t depth;  /* of includes */
+    uint32_t *files; /* counts the files that were read */
 };
 
 static bool claim_text(const struct search *s, const char *text)
@@ -64,34 +68,67 @@ static bool claim_node(const struct search *s, const struct kiln_node *node)
     return true;
 }
 
-static bool claim_yaml(const struct search *s, struct kiln_arena *arena, const char *text)
+static bool claim_yaml(const struct search *s, const char *text);
+
+/* Claims the files that the texts of a file name, which lie below its folder. */
+static bool claim_contents(const struct search *outer, const char *path)
 {
     struct kiln_error ignored = {0}; /* loading the scene reports it */
-    const struct kiln_origin origin = {.name = "a scene"};
-    const struct kiln_node *root = kiln_node_parse(arena, text, strlen(text), &origin, &ignored);
-    return !root || claim_node(s, root);
+    struct search search = *outer;
+    size_t size = 0;
+    const char *slash = strrchr(path, '/');
+    search.folder = kiln_arena_text(search.arena, path, slash ? (size_t)(slash + 1 - path) : 0);
+    if (!search.folder)
+        return kiln_error_no_memory(search.error, "%s", path);
+    if (search.depth++ > KILN_INCLUDE_MAX_DEPTH || ++*search.files > 2 * KILN_INCLUDE_MAX_FILES)
+        return true;
+    char *text = kiln_text_file_read(path, "a scene", KILN_MAX_SCENE_SIZE, &size, &ignored);
+    const bool ok = !text || claim_yaml(&search, text);
+    free(text);
+    return ok;
+}
+
+/* Claims the files that a file includes, and those that they name. */
+static bool claim_includes(const struct search *s, const struct kiln_node *root)
+{
+    const struct kiln_node *include = kiln_node_entry(root, "include");
+    const bool is_list = include && include->kind == KILN_NODE_LIST;
+    for (const struct kiln_node *path = is_list ? include->first : include; path;
+         path = is_list ? path->next : NULL) {
+        const char *file = path->kind == KILN_NODE_SCALAR && *path->text != '/'
+                               ? kiln_arena_format(s->arena, "%s%s", s->folder, path->text)
+                               : NULL;
+        if (file && !claim_contents(s, file))
+            return false;
+    }
+    return true;
+}
+
+static bool claim_yaml(const struct search *s, const char *text)
+{
+    struct kiln_error ignored = {0};
+    struct kiln_node_counts counts = {0};
+    const struct kiln_origin origin = {.name = "a scene", .counts = &counts};
+    const struct kiln_node *root = kiln_node_parse(s->arena, text, strlen(text), &origin, &ignored);
+    return !root || (claim_node(s, root) && claim_includes(s, root));
 }
 
 bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_t override_count,
                            struct kiln_claims *claims, struct kiln_error *error)
 {
-    struct kiln_error ignored = {0};
     const char *slash = strrchr(path, '/');
-    size_t size = 0;
+    uint32_t files = 0;
     struct kiln_arena *arena = kiln_arena_create();
     const char *folder =
         arena ? kiln_arena_text(arena, path, slash ? (size_t)(slash + 1 - path) : 0) : NULL;
-    const struct search search = {folder, claims, error};
+    const struct search search = {folder, arena, claims, error, 0, &files};
     bool ok = folder ? kiln_claims_read(claims, path, "a scene", error)
                      : kiln_error_no_memory(error, "%s", path);
-    char *text =
-        ok ? kiln_text_file_read(path, "a scene", KILN_MAX_SCENE_SIZE, &size, &ignored) : NULL;
-    ok = ok && (!text || claim_yaml(&search, arena, text));
+    ok = ok && claim_contents(&search, path);
     for (size_t i = 0; ok && i < override_count; i++) {
         const char *equals = strchr(overrides[i], '=');
-        ok = !equals || claim_yaml(&search, arena, equals + 1);
+        ok = !equals || claim_yaml(&search, equals + 1);
     }
-    free(text);
     kiln_arena_destroy(&arena);
     return ok;
 }

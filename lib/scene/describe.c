@@ -32,6 +32,18 @@ static const char scene_introduction[] =
     "Numbers of colours are linear light, with Rec. 709 primaries. \"#e61e28\", \"#abc\" and the "
     "names\n"
     "of CSS, such as orange or rebeccapurple, are sRGB, wherever a colour stands.\n"
+    "\n"
+    "A scene may be made of parts, and have parameters:\n"
+    "\n"
+    "    include: [parts/fire.yaml]                   its keys lie under those of the scene\n"
+    "    systems: {left: {use: flames}}               a copy of another system, with changes\n"
+    "    params: {amount: {number: 1, min: 0, max: 3}}\n"
+    "    rate: $amount                                the value of a parameter; $$x is the text "
+    "$x\n"
+    "    rate: \"= 2 * max($amount, 0.5)\"             arithmetic in the place of a number\n"
+    "\n"
+    "Anchors, aliases and << of YAML are read. 'kiln check' prints the scene with all of this\n"
+    "resolved; its option --origin adds the file and line that each key comes from.\n"
     "\n";
 
 bool kiln_scene_write_reference(FILE *out)

@@ -15,12 +15,12 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/sized.h"
-#include "option/override.h"
 #include "scene/asset_path.h"
 #include "scene/light_notes.h"
 #include "scene/mesh_notes.h"
 #include "scene/parts.h"
 #include "scene/place.h"
+#include "scene/resolve.h"
 #include "scene/small_steps.h"
 #include "scene/validate.h"
 #include "scene/work.h"
@@ -91,20 +91,20 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
     return ok || kiln_error_no_memory(error, "reading a scene");
 }
 
-static bool build(struct kiln_reader *reader, const char *text, size_t size,
-                  const struct kiln_scene_params *params, kiln_scene_estimate *estimate)
+static bool build(struct kiln_reader *reader, const char *text,
+                  const struct kiln_scene_source *source, kiln_scene_estimate *estimate)
 {
+    const struct kiln_scene_params *params = source->params;
     struct kiln_scene *scene = kiln_reader_scene(reader);
     struct kiln_node *root =
-        kiln_node_parse(reader->scratch, text, size, reader->origin, reader->error);
+        kiln_node_parse(reader->scratch, text, source->size, reader->origin, reader->error);
     if (!root)
         return false;
     if (root->kind != KILN_NODE_MAP)
         return kiln_reader_expected(reader, root, "a mapping of keys");
-    for (size_t i = 0; i < params->override_count; i++) {
-        if (!kiln_override(reader, kiln_options_root, root, params->overrides[i]))
-            return false;
-    }
+    if (!kiln_scene_resolve(reader, root, source))
+        return false;
+    scene->tree = params->keep_origins ? root : NULL;
     const struct kiln_loader_params loading = {.root = scene->asset_root,
                                                .cancel = params->cancel,
                                                .stop = params->stop,
@@ -136,14 +136,8 @@ static void blame_limit(const struct kiln_scene *scene, struct kiln_error *error
         kiln_error_set(error, KILN_OVER_LIMIT, "loading %s: %s", scene->name, limit.message);
 }
 
-/* The file that the text of a scene was read from. */
-struct origin_file {
-    const char *path; /* relative paths of the scene start in its folder */
-    const struct stat *status;
-};
-
 /* Lists the scene's own file, which another file may have replaced under its name by now. */
-static bool add_own_file(struct kiln_scene *scene, const struct origin_file *file)
+static bool add_own_file(struct kiln_scene *scene, const struct kiln_scene_source *file)
 {
     if (!kiln_scene_add_file(scene, scene->name, "the scene"))
         return false;
@@ -155,40 +149,45 @@ static bool add_own_file(struct kiln_scene *scene, const struct origin_file *fil
     return true;
 }
 
-/* file: NULL for a scene that is no file. */
-static struct kiln_scene *create(const char *text, size_t size, const char *name,
-                                 const struct origin_file *file,
-                                 const struct kiln_scene_params *params,
+static struct kiln_scene *create(const char *text, const char *name,
+                                 const struct kiln_scene_source *source,
                                  kiln_scene_estimate *estimate, struct kiln_error *error)
 {
+    const struct kiln_scene_params *params = source->params;
+    struct kiln_node_counts counts = {0};
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = calloc(1, sizeof *scene);
     const double before_s = kiln_clock_cpu_seconds();
     char *name_copy = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
-    if (!scratch || !scene || !name_copy) {
+    struct kiln_origin *origin = scratch ? kiln_arena_alloc(scratch, 1, sizeof *origin) : NULL;
+    if (!origin || !scene || !name_copy) {
         kiln_error_no_memory(error, "reading a scene");
     } else {
-        const struct kiln_origin origin = kiln_scene_origin(name_copy);
-        struct kiln_reader reader = {.origin = &origin,
+        *origin = kiln_scene_origin(name_copy);
+        origin->counts = &counts;
+        struct kiln_reader reader = {.origin = origin,
                                      .arena = arena,
                                      .scratch = scratch,
                                      .error = error,
                                      .log = &params->log,
-                                     .target = scene};
+                                     .target = scene,
+                                     .counts = &counts};
         kiln_handle_mark(&scene->handle, KILN_HANDLE_SCENE);
         scene->arena = arena;
         scene->name = name_copy;
         scene->budget = params->budget;
-        scene->asset_root =
-            kiln_asset_root(arena, params->asset_root, file ? file->path : NULL, error);
+        scene->asset_root = kiln_asset_root(arena, params->asset_root, source->path, error);
         ok = scene->asset_root &&
-             (!file || add_own_file(scene, file) || kiln_reader_out_of_memory(&reader)) &&
-             build(&reader, text, size, params, estimate);
+             (!source->path || add_own_file(scene, source) || kiln_reader_out_of_memory(&reader)) &&
+             build(&reader, text, source, estimate);
         kiln_loader_stop_counting(scene->loader, params->budget);
         scene->loading_cpu_s = kiln_clock_cpu_seconds() - before_s;
     }
-    kiln_arena_destroy(&scratch);
+    if (ok && scene->tree)
+        scene->tree_arena = scratch;
+    else
+        kiln_arena_destroy(&scratch);
     if (!ok && scene) {
         blame_limit(scene, error);
         kiln_mesh_library_destroy(&scene->meshes);
@@ -218,8 +217,8 @@ struct kiln_scene *kiln_scene_load_with(const char *path, const struct kiln_scen
     close(file);
     if (!text)
         return NULL;
-    const struct origin_file origin = {path, &status};
-    struct kiln_scene *scene = create(text, size, path, &origin, &params, estimate, error);
+    const struct kiln_scene_source source = {path, &status, size, &params};
+    struct kiln_scene *scene = create(text, path, &source, estimate, error);
     free(text);
     return scene;
 }
@@ -244,31 +243,68 @@ struct kiln_scene *kiln_scene_parse_with(const char *text, size_t size, const ch
                        "%s: the scene file has %zu bytes; at most %d are allowed", name, size,
                        KILN_MAX_SCENE_SIZE);
     else
-        scene = create(copy, size, name, NULL, &params, estimate, error);
+        scene = create(copy, name, &(struct kiln_scene_source){NULL, NULL, size, &params}, estimate,
+                       error);
     free(copy);
     return scene;
 }
 
-bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const char *name),
-                              void *user, struct kiln_error *error)
+/* Reads the tree of a scene file and its includes, for a caller that needs no valid scene. The
+ * scene only has what includes need. NULL with an error. */
+static struct kiln_node *read_tree(struct kiln_reader *reader, const char *path,
+                                   struct kiln_error *error)
 {
     size_t size = 0;
-    char *text = kiln_text_file_read(path, "a scene file", KILN_MAX_SCENE_SIZE, &size, error);
-    struct kiln_arena *arena = text ? kiln_arena_create() : NULL;
-    const struct kiln_origin origin = kiln_scene_origin(path);
-    const struct kiln_node *root =
-        arena ? kiln_node_parse(arena, text, size, &origin, error) : NULL;
-    if (text && !arena)
+    struct stat status;
+    const struct kiln_scene_params params = kiln_scene_defaults();
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    scene->asset_root = kiln_asset_root(reader->arena, NULL, path, error);
+    const int file = scene->asset_root ? kiln_scene_open(path, NULL, error) : -1;
+    char *text = file >= 0 ? kiln_text_file_take(file, path, "a scene file", KILN_MAX_SCENE_SIZE,
+                                                 &size, &status, error)
+                           : NULL;
+    if (file >= 0)
+        close(file);
+    const struct kiln_scene_source source = {path, &status, size, &params};
+    struct kiln_node *root =
+        text ? kiln_node_parse(reader->scratch, text, size, reader->origin, error) : NULL;
+    free(text);
+    if (!root || root->kind != KILN_NODE_MAP)
+        return root;
+    return kiln_scene_include(reader, root, &source) ? root : NULL;
+}
+
+bool kiln_scene_visit_names(const char *path, const char *key,
+                            void (*visit)(void *user, const char *name), void *user,
+                            struct kiln_error *error)
+{
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_scene *scene = calloc(1, sizeof *scene);
+    struct kiln_node_counts counts = {0};
+    struct kiln_origin origin = kiln_scene_origin(path);
+    origin.counts = &counts;
+    struct kiln_reader reader = {.origin = &origin,
+                                 .arena = arena,
+                                 .scratch = arena,
+                                 .error = error,
+                                 .target = scene,
+                                 .counts = &counts};
+    const struct kiln_node *root = NULL;
+    if (!arena || !scene) {
         kiln_error_no_memory(error, "reading a scene");
-    const struct kiln_node *systems = root ? kiln_node_entry(root, "systems") : NULL;
-    if (systems && systems->kind == KILN_NODE_MAP) {
-        for (const struct kiln_node *system = systems->first; system; system = system->next) {
-            if (kiln_option_is_name(system->key->text))
-                visit(user, system->key->text);
+    } else {
+        scene->arena = arena;
+        root = read_tree(&reader, path, error);
+    }
+    const struct kiln_node *map = root ? kiln_node_entry(root, key) : NULL;
+    if (map && map->kind == KILN_NODE_MAP) {
+        for (const struct kiln_node *entry = map->first; entry; entry = entry->next) {
+            if (kiln_option_is_name(entry->key->text))
+                visit(user, entry->key->text);
         }
     }
     bool ok = root != NULL;
     kiln_arena_destroy(&arena);
-    free(text);
+    free(scene);
     return ok;
 }

@@ -34,6 +34,7 @@ extern const struct kiln_option_type kiln_type_grid;         /* a wind file's pa
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
 extern const struct kiln_option_type kiln_type_name;         /* a system's name */
 extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100} */
+extern const struct kiln_option_type kiln_type_duration;     /* 5 s, or none */
 
 /* The C types of their fields (option/option.h). */
 typedef const char *kiln_fills_assets[];
@@ -45,6 +46,7 @@ typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
 typedef const char *kiln_fills_name;
 typedef struct kiln_burst kiln_fills_bursts[];
+typedef struct kiln_scene kiln_fills_duration; /* its frames */
 
 /* Returns the origin of a scene's text: a file of that name. */
 static inline struct kiln_origin kiln_scene_origin(const char *name)

@@ -420,7 +420,9 @@ PUBLIC_TABLE(kiln_options_backdrop) = {
         "How fast, per metre of distance, all that is drawn fades into the colour of the horizon: "
         "exp(-haze * distance) is left. Light that covers nothing, like fire, is dimmed. "
         "Transparent pictures have no haze."),
-    LIST(MOTION, "objects", objects, object, object_count, "[]", "Objects of the scene."),
-    LIST(LOOK, "lights", lights, light, light_count, "[]", "Lights besides the sun."),
+    NAMED_LIST(MOTION, "objects", objects, object, object_count, "[]",
+               "Objects of the scene. An entry of a mapping may `use` another one."),
+    NAMED_LIST(LOOK, "lights", lights, light, light_count, "[]",
+               "Lights besides the sun. An entry of a mapping may `use` another one."),
     END,
 };

@@ -258,6 +258,9 @@ ITEM_OF_KINDS(force, kiln_force_kinds, kind, .name = "force");
 ITEM_OF_KINDS(interaction, kiln_interaction_kinds, kind, .name = "interaction");
 
 PUBLIC_TABLE(kiln_options_system) = {
+    RESOLVED(MOTION, use, "use",
+             "Another system, whose keys but `enabled` this one has where it does not have its "
+             "own."),
     BOOLEAN(MOTION, "enabled", enabled, "true", "A system that is not enabled has no particles."),
     {ROW(IF_SEED_IS_PINNED, "seed", integer, seed, "auto",
          "Number of the system in all that is drawn at random for its particles. `auto` is its "

@@ -57,7 +57,14 @@ TABLE(output) = {
          "Frames a second: 30, 12.5 or 30000/1001. 29.97 is 30000/1001, as broadcast means it; "
          "so are 23.976, 47.952, 59.94 and 119.88."),
      LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},
-    INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Number of frames in the clip."),
+    {ROW(LOOK, "frames", integer, frames, "150", "Number of frames in the clip."),
+     LIMITS(KILN_PLAIN, 1, KILN_MAX_FRAMES), .instead_of = "duration"},
+    {ROW_OF_ALL(
+         LOOK, "duration", duration, "none",
+         "Length of the clip, in place of `frames`, which it rounds to whole frames. A time of "
+         "keys may be a part of the clip, such as 50 %."),
+     LIMITS(KILN_SECONDS, 0, KILN_MAX_FRAMES), .special_word = "none", .is_unprinted = true,
+     .instead_of = "frames"},
     END,
 };
 
@@ -91,6 +98,13 @@ TABLE(simulation) = {
 
 PUBLIC_TABLE(kiln_options_root) = {
     INTEGER(LOOK, "kiln", format_version, 1, 1, NULL, "Version of the scene format."),
+    RESOLVED(MOTION, include, "include",
+             "Scene files whose keys lie under those of this one: mappings merge, and where both "
+             "have a value, that of this file is taken."),
+    RESOLVED(
+        MOTION, params, "params",
+        "Parameters. A value $name is that of the parameter, and \"= 2 * $name\" is arithmetic "
+        "with it."),
     INTEGER(MOTION, "seed", seed, 0, UINT32_MAX, "0",
             "Another seed gives another run of the same scene."),
     GROUP(VIEW, "output", output, "The clip."),

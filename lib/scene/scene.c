@@ -230,6 +230,7 @@ void kiln_scene_destroy(struct kiln_scene **scene)
         return;
     kiln_mesh_library_destroy(&s->meshes);
     kiln_loader_destroy(&s->loader);
+    kiln_arena_destroy(&s->tree_arena);
     kiln_arena_destroy(&s->arena);
     kiln_handle_free(&s->handle, sizeof *s);
 }

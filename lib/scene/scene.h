@@ -336,6 +336,7 @@ struct kiln_object_paint {
 
 /* Values have the clock constant or time. */
 struct kiln_object {
+    const char *name; /* NULL for an entry of a list */
     enum kiln_object_kind kind;
     /* m; mesh: place of its file's origin; terrain: middle and lowest height, constant */
     struct kiln_value3 center;
@@ -372,6 +373,7 @@ struct kiln_object {
 enum kiln_light_kind { KILN_LIGHT_POINT, KILN_LIGHT_SPOT, KILN_LIGHT_RECTANGLE };
 
 struct kiln_light {
+    const char *name; /* NULL for an entry of a list */
     enum kiln_light_kind kind;
     struct kiln_value3 position; /* of the centre, m */
     /* Radiance: of a white surface 1 m in front of a point or a spot; of a rectangle itself. */
@@ -438,6 +440,10 @@ struct kiln_scene {
     struct kiln_mesh_library *meshes; /* owns the meshes of all objects and looks */
     struct kiln_budget *budget;       /* limits of kiln_scene_params */
     struct kiln_loader *loader;       /* opens the files below the asset root; owned by the scene */
+    const struct kiln_scene_param *params; /* that the scene declares */
+    size_t param_count;
+    struct kiln_arena *tree_arena; /* of the tree below; NULL: no tree is kept */
+    const struct kiln_node *tree;  /* what the options were read from, for their origins */
 
     uint32_t format_version; /* always 1 */
     uint32_t seed;
@@ -490,6 +496,9 @@ bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_
  * frees; false when memory is short. parts: bits of enum kiln_scene_part; only rows of these parts
  * are printed; 0: all rows. */
 bool kiln_print_scene(const struct kiln_scene *scene, unsigned parts, struct kiln_text *text);
+
+/* Does the same with the place of each line behind it, as kiln_scene_print_origins does. */
+bool kiln_print_scene_origins(const struct kiln_scene *scene, struct kiln_text *text);
 
 /* Returns the clip time in seconds at the end of a step. Steps count from 1; 0 is the start of the
  * run. The division is IEEE's, so every host gets the same float. */

@@ -39,7 +39,7 @@ static void print_assets(struct kiln_printer *printer, const struct kiln_option 
     kiln_text_add(&printer->text, count > 1 ? " [" : " ");
     for (uint32_t i = 0; i < count; i++) {
         kiln_text_add(&printer->text, "%s", i ? ", " : "");
-        kiln_text_add_json(&printer->text, kiln_asset_name(kiln_printer_scene(printer), assets[i]));
+        kiln_print_quoted(printer, kiln_asset_name(kiln_printer_scene(printer), assets[i]));
     }
     kiln_text_add(&printer->text, count > 1 ? "]\n" : "\n");
 }
@@ -109,7 +109,7 @@ static void print_motion(struct kiln_printer *printer, const struct kiln_option 
     const char *motion = *(const char *const *)field;
     kiln_text_add(&printer->text, " ");
     if (motion[0] == '/')
-        kiln_text_add_json(&printer->text, kiln_asset_name(kiln_printer_scene(printer), motion));
+        kiln_print_quoted(printer, kiln_asset_name(kiln_printer_scene(printer), motion));
     else
         kiln_text_add(&printer->text, "%s", motion);
     kiln_text_add(&printer->text, "\n");

@@ -21,7 +21,7 @@ static void print_file(struct kiln_printer *printer, const struct kiln_option *o
     const char *file = *(const char *const *)field;
     kiln_text_add(&printer->text, " ");
     if (file)
-        kiln_text_add_json(&printer->text, kiln_asset_name(kiln_printer_scene(printer), file));
+        kiln_print_quoted(printer, kiln_asset_name(kiln_printer_scene(printer), file));
     else
         kiln_text_add(&printer->text, "none");
     kiln_text_add(&printer->text, "\n");

@@ -133,7 +133,11 @@ bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root,
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
     struct kiln_footprint footprint = {.threads = kiln_threads_available()};
-    kiln_footprint_add(&footprint, KILN_FOOTPRINT_PARTICLES, count_nodes(root), NODE_BYTES);
+    /* More were parsed than the tree has, where a file lies over what it includes. */
+    const struct kiln_node_counts *counts = reader->counts;
+    const uint64_t read = counts ? (uint64_t)counts->parsed + counts->copied : 0;
+    const uint64_t left = count_nodes(root), nodes = read > left ? read : left;
+    kiln_footprint_add(&footprint, KILN_FOOTPRINT_PARTICLES, nodes, NODE_BYTES);
     if (estimate)
         estimate(scene, &footprint);
     scene->memory_bytes = PROGRAM_BYTES + kiln_footprint_total(&footprint);

@@ -32,6 +32,7 @@ static bool load_scene(struct job *job)
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = test->overrides;
     params.override_count = test->override_count;
+    params.keep_origins = true;
     job->scene = kiln_scene_load(test->scene, &params, job->error);
     if (!job->scene)
         return false;
@@ -41,7 +42,10 @@ static bool load_scene(struct job *job)
     if (kiln_print_scene(job->scene, 0, &text))
         job->rendering->scene_text = kiln_arena_text(job->arena, text.data, text.length);
     kiln_text_free(&text);
-    return job->rendering->scene_text || no_memory(job);
+    if (kiln_print_scene_origins(job->scene, &text))
+        job->rendering->scene_origins = kiln_arena_text(job->arena, text.data, text.length);
+    kiln_text_free(&text);
+    return (job->rendering->scene_text && job->rendering->scene_origins) || no_memory(job);
 }
 
 size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames,

@@ -40,7 +40,8 @@ struct kiln_rendering {
     char device_name[KILN_DEVICE_NAME_SIZE];
     struct kiln_scene_info scene;
     uint32_t seed;
-    const char *scene_text; /* as kiln_scene_print writes it */
+    const char *scene_text;    /* as kiln_scene_print writes it */
+    const char *scene_origins; /* as kiln_scene_print_origins does */
     char techniques[256];
     size_t frame_count;
     struct kiln_rendered_frame *frames; /* ascending */

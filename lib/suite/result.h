@@ -52,6 +52,7 @@ struct kiln_result_frame {
 struct kiln_result_change {
     const char *key;            /* "systems.fire.emit.rate" */
     const char *before, *after; /* values as a scene would write them; "" without the key */
+    const char *place; /* where the new value comes from: "fire.yaml:7", "default"; "": not known */
 };
 
 struct kiln_result {

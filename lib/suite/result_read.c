@@ -356,6 +356,18 @@ static bool read_frames(const struct reading *reading, const struct kiln_node *r
     return true;
 }
 
+/* Reads a change. Versions up to 0.2 did not say where the new value comes from. */
+static bool read_change(const struct reading *reading, const struct kiln_node *node,
+                        struct kiln_result_change *change)
+{
+    const struct kiln_node *place = kiln_node_entry(node, "place");
+    uint32_t count = place ? 1 : 0;
+    change->place = "";
+    return (!place || read_text(reading, place, "place", &change->place)) &&
+           read_members(reading, node, kiln_result_change_members, change, &count) &&
+           check_count(reading, node, count);
+}
+
 static bool read_changes(const struct reading *reading, const struct kiln_node *root,
                          struct kiln_result *result)
 {
@@ -366,8 +378,7 @@ static bool read_changes(const struct reading *reading, const struct kiln_node *
     if (!result->changes)
         return false;
     for (const struct kiln_node *node = list->first; node; node = node->next) {
-        if (!read_object(reading, node, kiln_result_change_members,
-                         &result->changes[result->change_count++]))
+        if (!read_change(reading, node, &result->changes[result->change_count++]))
             return false;
     }
     return true;

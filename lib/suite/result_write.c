@@ -96,17 +96,25 @@ static size_t entries_written(size_t count)
     return count > KILN_RESULT_MAX_ENTRIES ? KILN_RESULT_MAX_ENTRIES - 1 : count;
 }
 
+static void add_change(struct kiln_json *json, const struct kiln_result_change *change)
+{
+    kiln_json_begin_object(json, NULL);
+    add_members(json, kiln_result_change_members, change);
+    if (*change->place)
+        kiln_json_string(json, "place", change->place);
+    kiln_json_end(json);
+}
+
 static void add_changes(struct kiln_json *json, const struct kiln_result *result)
 {
     begin_list(json, "changes");
     size_t written = entries_written(result->change_count);
     for (size_t i = 0; i < written; i++)
-        add_object(json, kiln_result_change_members, &result->changes[i]);
+        add_change(json, &result->changes[i]);
     if (written < result->change_count) {
         char key[64];
         snprintf(key, sizeof key, "and %zu more", result->change_count - written);
-        const struct kiln_result_change rest = {key, "", ""};
-        add_object(json, kiln_result_change_members, &rest);
+        add_change(json, &(struct kiln_result_change){key, "", "", ""});
     }
     kiln_json_end(json);
 }

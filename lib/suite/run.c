@@ -208,8 +208,9 @@ static void take_changes(struct kiln_test_case *test_case)
     }
     const char *before = text ? complete_scene(test_case, text, path) : NULL;
     test_case->scene_keys_differ = text && strcmp(text, before) != 0;
-    if (!text || !kiln_scene_diff(test_case->arena, before, path, test_case->rendering.scene_text,
-                                  &result->changes, &result->change_count, &error))
+    if (!text ||
+        !kiln_scene_diff(test_case->arena, before, path, test_case->rendering.scene_origins,
+                         &result->changes, &result->change_count, &error))
         kiln_test_case_note(test_case, "it is not known what changed in the scene: %s",
                             error.message);
     free(text);

@@ -1,5 +1,6 @@
 /* Lists the keys that differ between two scenes. Both scenes become ordered lists of dotted keys,
- * which are merged side by side. */
+ * which are merged side by side. The scene as it is has behind each line the file and line that it
+ * comes from (kiln_scene_print_origins), which says where to look for a change. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@
 
 struct entry {
     const char *key, *value;
+    uint32_t line; /* of the value in its text */
 };
 
 struct flattening {
@@ -57,7 +59,7 @@ static void add_entry(struct flattening *f, const char *key, const struct kiln_n
         f->capacity = capacity;
     }
     f->failed = f->failed || !value;
-    f->entries[f->count++] = (struct entry){key, value ? value : ""};
+    f->entries[f->count++] = (struct entry){key, value ? value : "", node->line};
 }
 
 static const char *join(struct kiln_arena *arena, const char *path, const char *name)
@@ -113,8 +115,25 @@ static bool read_entries(struct flattening *f, const char *text, const char *nam
     return true;
 }
 
+/* Returns the comment at the end of a line of a text, which says where the line comes from, or
+ * "". */
+static const char *comment_of(struct kiln_arena *arena, const char *text, uint32_t line)
+{
+    static const char sign[] = "  # ";
+    while (line-- > 1)
+        text += strcspn(text, "\n") + 1;
+    const size_t length = strcspn(text, "\n");
+    const char *found = NULL;
+    for (const char *at = text; (at = strstr(at, sign)) && at < text + length; at++)
+        found = at + sizeof sign - 1;
+    const char *place =
+        found ? kiln_arena_text(arena, found, (size_t)(text + length - found)) : NULL;
+    return place ? place : "";
+}
+
+/* `text` is the one that `after` was read from. */
 static size_t merge(const struct flattening *before, const struct flattening *after,
-                    struct kiln_result_change *changes)
+                    const char *text, struct kiln_result_change *changes)
 {
     size_t i = 0, k = 0, count = 0;
     while (i < before->count || k < after->count) {
@@ -126,7 +145,10 @@ static size_t merge(const struct flattening *before, const struct flattening *af
         if (order == 0 && strcmp(a->value, b->value) == 0)
             continue;
         changes[count++] = (struct kiln_result_change){
-            order <= 0 ? a->key : b->key, order <= 0 ? a->value : "", order >= 0 ? b->value : ""};
+            .key = order <= 0 ? a->key : b->key,
+            .before = order <= 0 ? a->value : "",
+            .after = order >= 0 ? b->value : "",
+            .place = order >= 0 ? comment_of(after->arena, text, b->line) : ""};
     }
     return count;
 }
@@ -142,7 +164,7 @@ bool kiln_scene_diff(struct kiln_arena *arena, const char *before, const char *n
         *changes = kiln_arena_alloc(arena, a.count + b.count + 1, sizeof **changes);
         ok = *changes != NULL;
         if (ok)
-            *count = merge(&a, &b, *changes);
+            *count = merge(&a, &b, after, *changes);
         else
             kiln_error_no_memory(error, "%s", name);
     }

@@ -74,8 +74,9 @@ void kiln_test_case_judge(struct kiln_test_case *test_case, size_t index);
  */
 bool kiln_test_case_update(struct kiln_test_case *test_case, struct kiln_error *error);
 
-/* Lists the keys that differ between two scenes as kiln_scene_print writes them (scene_diff.c);
- * name stands for the first scene in messages. */
+/* Lists the keys that differ between two scenes as kiln_scene_print writes them (scene_diff.c), of
+ * which the second may have the places of kiln_scene_print_origins; name stands for the first scene
+ * in messages. */
 bool kiln_scene_diff(struct kiln_arena *arena, const char *before, const char *name,
                      const char *after, struct kiln_result_change **changes, size_t *count,
                      struct kiln_error *error);

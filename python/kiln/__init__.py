@@ -19,7 +19,7 @@ from ._errors import Code, DeviceError, Error, FileError, Interrupted, InvalidIn
 from ._library import Cancel, version
 from ._picture import write_picture
 from ._render import Frame, Progress, Rendering, Stats, render, render_to
-from ._scene import Scene, SceneInfo, load, parse
+from ._scene import Param, Scene, SceneInfo, load, parse
 
 __version__: str = _header.TEXTS["VERSION"]
 DEFAULT_LIMITS: str = _header.TEXTS["COMPARE_DEFAULT_LIMITS"]
@@ -27,7 +27,7 @@ DEFAULT_LIMITS: str = _header.TEXTS["COMPARE_DEFAULT_LIMITS"]
 
 __all__ = [
     "DEFAULT_LIMITS", "BakeStats", "Cancel", "Code", "ComparedFrame", "Comparison", "Device", "DeviceError",
-    "DeviceInfo", "Error", "FileError", "Frame", "Interrupted", "InvalidInput", "Metric", "OverLimit", "Progress",
-    "Rendering", "SavedState", "Scene", "SceneInfo", "Stats", "UsageError", "bake", "compare", "devices", "load",
+    "DeviceInfo", "Error", "FileError", "Frame", "Interrupted", "InvalidInput", "Metric", "OverLimit", "Param",
+    "Progress", "Rendering", "SavedState", "Scene", "SceneInfo", "Stats", "UsageError", "bake", "compare", "devices", "load",
     "parse", "render", "render_to", "version", "write_picture",
 ]

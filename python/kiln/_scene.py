@@ -1,10 +1,11 @@
 """Loads and parses scenes, and gives facts of them."""
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Optional, Union
+from typing import Any, Mapping, Optional, Union
 
 from ._library import (Cancel, Failure, Overrides, PathLike, Struct, Watch, ffi, lib, owned, pairs, path_bytes,
                        set_watch, text)
@@ -35,6 +36,43 @@ class SceneInfo:
     """The SHA-256 of the scene with every default and of its textures, in hex."""
 
 
+@dataclass(frozen=True)
+class Param:
+    """A parameter of a scene, for a program that asks people for its value."""
+
+    name: str
+    kind: str
+    """"number", "integer", "color", "vector", "choice", "switch", "text" or "file"."""
+    value: Any
+    """The value that the scene was loaded with. Numbers are in `unit`; angles are texts such as "45 deg"."""
+    default: Any
+    unit: str
+    """The unit of its numbers, such as "s"; "" for none."""
+    min: Optional[float]
+    max: Optional[float]
+    words: tuple[str, ...]
+    """The words of a choice."""
+    help: str
+    place: str
+    """Where it is declared, as in "scene.yaml:3:3"."""
+    schema: Mapping[str, Any]
+    """The JSON schema of its values."""
+
+
+def _param(found: Any) -> Param:
+    return Param(name=text(found.name), kind=text(lib.kiln_param_kind_name(found.kind)),
+                 value=json.loads(text(found.value)), default=json.loads(text(found.fallback)),
+                 unit=text(found.unit), min=found.min if found.has_min else None,
+                 max=found.max if found.has_max else None,
+                 words=tuple(text(found.words[index]) for index in range(found.word_count)),
+                 help=text(found.help), place=text(found.place), schema=json.loads(text(found.schema)))
+
+
+def _values(params: Optional[Mapping[str, Any]]) -> list[str]:
+    """Returns the overrides that give parameters their values."""
+    return [f"params.{name}={json.dumps(value)}" for name, value in (params or {}).items()]
+
+
 class Scene:
     """A scene. :func:`kiln.load` and :func:`kiln.parse` make it, and it does not change afterwards.
 
@@ -58,10 +96,22 @@ class Scene:
         self._pointer: Any = owned(pointer, "kiln_scene", self._params)
         self._watch.raise_kept()
 
-    def override(self, overrides: Overrides, *, cancel: Optional[Cancel] = None) -> "Scene":
+    def override(self, overrides: Overrides = (), *, params: Optional[Mapping[str, Any]] = None,
+                 cancel: Optional[Cancel] = None) -> "Scene":
         """Returns a scene with other values: reads the file or the text once more, and applies these overrides after
-        those that this scene has."""
-        return Scene(self._source, self._overrides + pairs(overrides, "overrides"), cancel)
+        those that this scene has. `params` gives parameters values, as in :func:`kiln.load`."""
+        return Scene(self._source, self._overrides + _values(params) + pairs(overrides, "overrides"), cancel)
+
+    @property
+    def params(self) -> tuple[Param, ...]:
+        """The parameters that the scene declares, in their order."""
+        count = lib.kiln_scene_list_params(self._pointer, ffi.NULL, 0, 0)
+        found = ffi.new("struct kiln_scene_param[]", count + 1)
+        size = ffi.sizeof(found[0])
+        for entry in found:
+            entry.size = size
+        lib.kiln_scene_list_params(self._pointer, found, size, count)
+        return tuple(_param(found[index]) for index in range(count))
 
     @property
     def name(self) -> str:
@@ -125,28 +175,32 @@ class _Source:
                                     failure.pointer)
 
 
-def load(path: PathLike, overrides: Overrides = (), *, asset_root: Optional[PathLike] = None,
-         limits: Optional[str] = None, cancel: Optional[Cancel] = None) -> Scene:
+def load(path: PathLike, overrides: Overrides = (), *, params: Optional[Mapping[str, Any]] = None,
+         asset_root: Optional[PathLike] = None, limits: Optional[str] = None,
+         cancel: Optional[Cancel] = None) -> Scene:
     """Reads a scene file.
 
     `overrides` are texts such as "systems.fire.emit.rate=50", applied in order after the file, or a mapping of
     keys to values; a '*' in a key names every entry of a map or list. Textures and meshes lie below `asset_root`,
     by default the folder of the file. `limits` bound the frames, memory, time and other amounts that the scene and
-    its jobs may take, as in "frames=1000,memory=4 GiB" or "service"; time counts from this call on.
+    its jobs may take, as in "frames=1000,memory=4 GiB" or "service"; time counts from this call on. `params` gives
+    parameters of the scene values: {"length": 5, "brand": "#e61e28"}. The values may be a stranger's: a text is a
+    text, whatever it begins with.
 
     Raises :class:`kiln.InvalidInput` for a scene that is wrong or does not exist, :class:`kiln.UsageError` for an
     override that is not "key=value", :class:`kiln.OverLimit` and :class:`kiln.FileError`.
     """
-    return Scene(_Source(os.fspath(path), None, asset_root, limits), pairs(overrides, "overrides"), cancel)
+    return Scene(_Source(os.fspath(path), None, asset_root, limits), _values(params) + pairs(overrides, "overrides"),
+                 cancel)
 
 
-def parse(content: Union[str, bytes], overrides: Overrides = (), *, name: str = "scene",
-          asset_root: Optional[PathLike] = None, limits: Optional[str] = None,
+def parse(content: Union[str, bytes], overrides: Overrides = (), *, params: Optional[Mapping[str, Any]] = None,
+          name: str = "scene", asset_root: Optional[PathLike] = None, limits: Optional[str] = None,
           cancel: Optional[Cancel] = None) -> Scene:
     """Does what :func:`load` does, for the text of a scene. `name` stands for the file in messages. Relative paths of
     assets start at `asset_root`, by default the working directory."""
     encoded = content.encode() if isinstance(content, str) else bytes(content)
-    return Scene(_Source(name, encoded, asset_root, limits), pairs(overrides, "overrides"), cancel)
+    return Scene(_Source(name, encoded, asset_root, limits), _values(params) + pairs(overrides, "overrides"), cancel)
 
 
-__all__ = ["Scene", "SceneInfo", "load", "parse"]
+__all__ = ["Param", "Scene", "SceneInfo", "load", "parse"]

@@ -9,7 +9,7 @@ committed=$source/tests/abi/libkiln.abi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/include"
-cp "$source"/lib/kiln{,_compare,_job,_limits,_sandbox}.h "$folder/include"
+cp "$source"/lib/kiln{,_compare,_job,_limits,_params,_sandbox}.h "$folder/include"
 abidw --headers-dir "$folder/include" --drop-private-types --exported-interfaces-only --no-corpus-path \
     --no-comp-dir-path --no-show-locs --no-elf-needed --no-parameter-names --type-id-style hash \
     --out-file "$folder/found.abi" "$library"

@@ -257,7 +257,7 @@ static bool is_chosen(struct choice *c, const struct kiln_option *row, int depth
     const bool needed = !row->fallback || row->type == &kiln_type_assets ||
                         row->type == &kiln_type_bursts || row->type == &kiln_type_map ||
                         row->type == &kiln_type_group;
-    if (row->type == &kiln_type_text || row->type == &kiln_type_rational ||
+    if (row->is_unprinted || row->type == &kiln_type_text || row->type == &kiln_type_rational ||
         row->type == &kiln_type_clip || depth > MOST_DEPTH)
         return !row->fallback;
     return needed || take(c) % 4 == 3;

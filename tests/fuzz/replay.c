@@ -29,10 +29,11 @@ static uint32_t next_random(uint64_t *state)
 /* Pieces of text that mutations insert: syntax and values at which readers of YAML and JSON may
  * fail. */
 static const char *const pieces[] = {
-    "{",    "}",    "[",          "]",      ": ",  ", ",       "- ",  "\n",    "\"",   "'",
-    "&a ",  "*a",   "<<: ",       "!!int ", "? ",  "|",        "#",   "---\n", "keys", "life",
-    "none", "auto", "1e39",       "-1",     "0",   ".nan",     "deg", " s",    "\t",   "\xff",
-    "\r\n", "%",    "4294967296", "1e-45",  "1/0", "builtin:", "../", "*",     ".",    "true",
+    "{",    "}",    "[",          "]",      ": ",  ", ",       "- ",   "\n",    "\"",   "'",
+    "&a ",  "*a",   "<<: ",       "!!int ", "? ",  "|",        "#",    "---\n", "keys", "life",
+    "none", "auto", "1e39",       "-1",     "0",   ".nan",     "deg",  " s",    "\t",   "\xff",
+    "\r\n", "%",    "4294967296", "1e-45",  "1/0", "builtin:", "../",  "*",     ".",    "true",
+    "$",    "$$",   "\"= ",       " + ",    "(",   "use: ",    "min(", "$a",    "50 %", "params",
 };
 
 static size_t insert(uint8_t *data, size_t size, size_t at, const void *bytes, size_t count)

@@ -24,6 +24,13 @@ def scenes():
         "overflow": "kiln: 1\noutput: {frames: 99999999999999999999}\n" + SYSTEM,
         "systems": "kiln: 1\nsystems: {" + ", ".join(f"s{i}: {{emit: {{rate: 1}}}}" for i in range(3000)) + "}\n",
         "objects": "kiln: 1\nbackdrop: {objects: [" + ", ".join(["{sphere: {radius: 1}}"] * 5000) + "]}\n" + SYSTEM,
+        "include of itself": "kiln: 1\ninclude: s.yaml\n", "include of a device": "kiln: 1\ninclude: /dev/zero\n",
+        "include from outside": "kiln: 1\ninclude: [../../etc/passwd]\n", "use of itself": "kiln: 1\nsystems: {a: {use: b}, b: {use: a}}\n",
+        "parameter of itself": "kiln: 1\nparams: {a: {number: $b}, b: {number: '= 2 * $a'}}\n",
+        "parameter out of the root": "kiln: 1\nparams: {a: {file: ../../etc/passwd}}\n",
+        "deep arithmetic": "kiln: 1\nseed: '= " + "(" * 100000 + "'\n", "long arithmetic": "kiln: 1\nseed: '= 1" + " + 1" * 500000 + "'\n",
+        "endless arithmetic": "kiln: 1\nseed: '= 1e308 * 1e308 - 1e308 * 1e308'\n", "division by zero": "kiln: 1\nseed: '= 1 / 0'\n",
+        "long clip": "kiln: 1\noutput: {duration: 1e300 s}\n" + SYSTEM,
         "rate of frames": "kiln: 1\noutput: {fps: 1/4294967295}\n" + SYSTEM, "size": "kiln: 1\noutput: {size: [0, 0]}\n" + SYSTEM,
     }
     for label, text in texts.items():

@@ -120,7 +120,7 @@ static bool fill_frame(struct maker *maker, struct kiln_result *result, uint32_t
 
 static void make_hostile(struct kiln_result *result)
 {
-    static struct kiln_result_change change = {HOSTILE, HOSTILE, HOSTILE};
+    static struct kiln_result_change change = {HOSTILE, HOSTILE, HOSTILE, HOSTILE};
     static const char *note = HOSTILE;
     result->message = result->about = result->test = result->scene = result->golden = HOSTILE;
     result->device = result->driver = result->log = result->techniques = HOSTILE;

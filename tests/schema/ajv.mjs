@@ -33,6 +33,21 @@ for (const folder of folders) {
     }
 }
 
+// What a scene may write in the place of values and of what another file or entry gives.
+const good = {
+    "parameters": "kiln: 1\nparams: {a: {number: 1, min: 0}, b: {choice: x, of: [x, y]}}\nseed: $a",
+    "arithmetic": "kiln: 1\ncamera: {fov: '= 2 * $a', position: [0, '= 1 m + $b', $c], target: $d}",
+    "times in parts of the clip": "kiln: 1\ncamera: {roll: {keys: {50 %: 1 deg, '= $a / 2': $b}}}",
+    "duration": "kiln: 1\noutput: {duration: 5 s}\nseed: 1",
+    "includes": "kiln: 1\ninclude: [a.yaml, b/c.yaml]\nsystems: {a: {emit: {rate: 3}}}",
+    "include": "kiln: 1\ninclude: a.yaml",
+    "use": "kiln: 1\nsystems: {a: {use: b}}\nbackdrop: {objects: {a: {use: b, box: {}}, c: {use: b}}}",
+    "names": "kiln: 1\nbackdrop: {lights: {a: {point: {}}}}",
+    "colour": "kiln: 1\nsystems: {a: {look: {color: $brand, shape: $shape}}}",
+};
+for (const [name, text] of Object.entries(good))
+    expectGood(name, text);
+
 const system = (text) => `kiln: 1\nsystems: {a: ${text}}`;
 const emit = (text) => system(`{emit: ${text}}`);
 const look = (text) => system(`{look: ${text}}`);

@@ -30,6 +30,8 @@ run encode a_%d.png -o c.mp4
 run compare a_0.png a_1.png --stats
 run compare a_0.png none.png
 run check $tiny
+printf 'kiln: 1\nparams: {a: {number: 1, min: 0}}\n' >params.yaml
+run params params.yaml
 run devices
 run test scenes --golden golden
 run test report out/test

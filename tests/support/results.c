@@ -111,8 +111,9 @@ static void test_fill_bad(struct test_results *all)
     test_frame(result, 24, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE, 0.002)->message =
         "the simulation changed";
     result->frames[0].state_expected = "000000000000000f";
-    all->changes[0] = (struct kiln_result_change){"systems.fire.emit.rate", "20000", "10000"};
-    all->changes[1] = (struct kiln_result_change){"seed", "", "<7>"};
+    all->changes[0] = (struct kiln_result_change){"systems.fire.emit.rate", "20000", "10000",
+                                                  "parts/<fire>.yaml:7"};
+    all->changes[1] = (struct kiln_result_change){"seed", "", "<7>", ""};
     result->changes = all->changes;
     result->change_count = 2;
 

@@ -43,6 +43,8 @@ static struct seen *find(struct rows *rows, const struct kiln_option *row)
 static void list_rows(struct rows *rows, const char *prefix, const struct kiln_option *table)
 {
     for (const struct kiln_option *row = table; row->name; row++) {
+        if (row->is_unprinted)
+            continue; /* other rows say what it means */
         if (find(rows, row))
             continue; /* a table that two kinds share */
         char path[160];

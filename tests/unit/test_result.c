@@ -141,6 +141,7 @@ static struct kiln_result full_result(struct kiln_arena *arena, uint32_t frames,
     result.notes = kiln_arena_alloc(arena, 2, sizeof *result.notes);
     for (size_t i = 0; i < 2; i++) {
         fill(kiln_result_change_members, &result.changes[i], &next, arena);
+        result.changes[i].place = i ? nasty : ""; /* in files only if it is known */
         result.notes[i] = i ? nasty : "";
     }
     return result;
@@ -161,8 +162,10 @@ static void assert_results(const struct kiln_result *a, const struct kiln_result
             assert_true(f->values[c] == g->values[c] && f->beyond[c] == g->beyond[c]);
     }
     assert_int_equal(a->change_count, b->change_count);
-    for (size_t i = 0; i < a->change_count; i++)
+    for (size_t i = 0; i < a->change_count; i++) {
         assert_members(kiln_result_change_members, &a->changes[i], &b->changes[i]);
+        assert_string_equal(a->changes[i].place, b->changes[i].place);
+    }
     assert_int_equal(a->note_count, b->note_count);
     for (size_t i = 0; i < a->note_count; i++)
         assert_string_equal(a->notes[i], b->notes[i]);
@@ -202,7 +205,7 @@ static void long_lists_are_cut_and_say_so(void **state)
     result.changes = kiln_arena_alloc(arena, 5000, sizeof *result.changes);
     result.notes = kiln_arena_alloc(arena, 5000, sizeof *result.notes);
     for (size_t i = 0; i < 5000; i++) {
-        result.changes[i] = (struct kiln_result_change){"key", "1", "2"};
+        result.changes[i] = (struct kiln_result_change){"key", "1", "2", ""};
         result.notes[i] = "note";
     }
     struct kiln_text text = {0};

@@ -223,6 +223,7 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
     left.asset_root = right.asset_root;
     left.keys = right.keys;
     left.files = right.files;
+    left.params = right.params;
     left.loading_cpu_s = right.loading_cpu_s;
     left.memory_bytes = right.memory_bytes; /* a part of it is that of the text */
     assert_memory_equal(&left, &right, sizeof left);

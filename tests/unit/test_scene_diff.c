@@ -20,6 +20,7 @@ static void expect_changes(const char *before, const char *after, const char *ex
         size_t used = strlen(text);
         snprintf(text + used, sizeof text - used, "%s: '%s' '%s'\n", changes[i].key,
                  changes[i].before, changes[i].after);
+        assert_string_equal(changes[i].place, "");
     }
     assert_string_equal(text, expected);
     kiln_arena_destroy(&arena);
@@ -42,6 +43,27 @@ static void keys_that_differ_are_listed(void **state)
                    "forces: '[]' ''\nforces.0.drag: '' '2'\n");
 }
 
+/* The new text has the places of kiln_scene_print_origins. */
+static void places_are_named(void **state)
+{
+    (void)state;
+    struct kiln_arena *arena = kiln_arena_create();
+    struct kiln_result_change *changes = NULL;
+    struct kiln_error error = {0};
+    size_t count = 0;
+    assert_true(kiln_scene_diff(arena, "a: 1\nb: {c: 2, d: 3}\ne: \"  # x\"\n", "before.yaml",
+                                "a: 2  # s.yaml:3\nb:  # s.yaml:4\n  c: 2  # s.yaml:5\n"
+                                "  d: 4  # parts/fire.yaml:7, used at s.yaml:4\n"
+                                "e: \"  # y\"  # default\n",
+                                &changes, &count, &error));
+    assert_int_equal(count, 3);
+    assert_string_equal(changes[0].place, "s.yaml:3");
+    assert_string_equal(changes[1].key, "b.d");
+    assert_string_equal(changes[1].place, "parts/fire.yaml:7, used at s.yaml:4");
+    assert_string_equal(changes[2].place, "default");
+    kiln_arena_destroy(&arena);
+}
+
 static void broken_scenes_are_errors(void **state)
 {
     (void)state;
@@ -60,6 +82,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_that_differ_are_listed),
+        cmocka_unit_test(places_are_named),
         cmocka_unit_test(broken_scenes_are_errors),
     };
     return cmocka_run_group_tests_name("scene_diff", tests, NULL, NULL);

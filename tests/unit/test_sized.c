@@ -31,7 +31,7 @@ static const struct params defaults = {sizeof defaults, 1, 2};
     _Static_assert(sizeof(struct name) ==                                                          \
                        offsetof(struct name, last) + sizeof(((struct name *)NULL)->last),          \
                    #name)
-ENDS_WITH(kiln_scene_params, log);
+ENDS_WITH(kiln_scene_params, params_file_count);
 ENDS_WITH(kiln_device_params, log);
 ENDS_WITH(kiln_flipbook, green_down);
 ENDS_WITH(kiln_frame_layer, pixels);

@@ -121,10 +121,11 @@ function hashesCard(test, frame) {
 
 function changesCard(test) {
     const count = test.changes.length;
-    const rows = test.changes.map(([key, before, after]) => make("tr", {},
+    const rows = test.changes.map(([key, before, after, place]) => make("tr", {},
         make("th", { scope: "row", class: "mono" }, key),
-        make("td", { class: "before" }, before || "\u2013"), make("td", { class: "after" }, after || "\u2013")));
-    const head = ["Key", "Accepted", "Now"].map((text) => make("th", { scope: "col" }, text));
+        make("td", { class: "before" }, before || "\u2013"), make("td", { class: "after" }, after || "\u2013"),
+        make("td", { class: "mono" }, place)));
+    const head = ["Key", "Accepted", "Now", "From"].map((text) => make("th", { scope: "col" }, text));
     return card("Scene", `${count} ${count === 1 ? "key differs" : "keys differ"} from the accepted one`,
         make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows))));
 }

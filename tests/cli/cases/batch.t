@@ -149,6 +149,7 @@ $ kiln help jobs | head -n 40
 1|A file whose name ends in .ndjson or .jsonl has one job a line, and so has standard input, '-':
 1|
 1|    {"scene": "fire.yaml", "output": "out/fire.mp4", "set": ["seed=3"]}
+1|    {"scene": "title.yaml", "output": "a.mp4", "params": {"brand": "#e61e28"}}
 1|
 1|kiln_jobs
 1|    Version of the format of files of jobs.
@@ -175,10 +176,9 @@ $ kiln help jobs | head -n 40
 1|    a text
 1|    must be given
 1|
-1|jobs.N.set
-1|    Changes of keys of the scene.
-1|    a list of up to 64: key=value, as for --set
-1|    default: []
+1|jobs.N.params
+1|    Values of the scene's parameters.
+1|    a mapping of up to 256 names of parameters to values
 
 Numbers and times are taken as they are written; so does the schema.
 

@@ -60,6 +60,22 @@ $ kiln complete -- compare a.png b.png ''
 $ kiln complete -- render -- --out
 1|file:*.y*ml		
 
+Parameters of the scene on the line, and of what it includes.
+
+$ printf 'params: {far: {number: 1}}\n' >part.yaml; printf 'kiln: 1\ninclude: part.yaml\nparams: {first: 3, other: {}}\n' >params.yaml
+$ kiln complete -- check params.yaml --set par
+1|part	params.	values of parameters
+$ kiln complete -- check params.yaml --set params.
+1|part	params.first=	a parameter
+1|part	params.other=	a parameter
+1|part	params.far=	a parameter
+$ kiln complete -- check params.yaml --set params.f
+1|part	params.first=	a parameter
+1|part	params.far=	a parameter
+$ kiln complete -- check params.yaml --set inc
+$ kiln complete -- check params.yaml --params par
+1|file:*		
+
 Keys of scenes, with the systems of the scene on the line; other things may be wrong with it.
 
 $ printf 'kiln: 1\nsystems:\n  blaze: {emit: {raet: 5}}\n  smoke: {}\n' >broken.yaml

@@ -124,6 +124,9 @@ $ kiln help limits | sed -n '20,$p'
 1|objects       256         Objects of the backdrop, meshes and terrain included.
 1|meshes        64          Meshes and terrains of the backdrop.
 1|lights        64          Lights of the backdrop.
+1|parameters    256         Parameters.
+1|includes      64          Included files, through at most 8 files.
+1|copies        100000      Nodes that aliases, uses and parameters copy.
 1|winds         8           Files of wind.
 1|steps         4194303     Steps of a run, warm-up included.
 1|

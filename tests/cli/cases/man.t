@@ -23,6 +23,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SS kiln bench [\fIOPTION...\fR] \fI[SCENE | SUITE]...\fR
 1|.SS kiln new [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln check [\fIOPTION...\fR] \fISCENE...\fR
+1|.SS kiln params [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln devices [\fIOPTION...\fR]
 1|.SS kiln help [\fIOPTION...\fR] \fI[TOPIC [KEY]]\fR
 1|.SH OUTPUTS
@@ -38,7 +39,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|340
+1|356
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION

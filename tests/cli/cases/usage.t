@@ -25,6 +25,7 @@ $ kiln
 2|  bench            measure techniques, scenes and suites
 2|  new              write a scene to begin with
 2|  check            validate scenes and print them with every default
+2|  params           list the parameters of a scene
 2|  devices          list what can render on this machine, and what is missing
 2|  help             explain a command or a topic
 2|
@@ -78,6 +79,7 @@ $ kiln --help
 1|  bench            measure techniques, scenes and suites
 1|  new              write a scene to begin with
 1|  check            validate scenes and print them with every default
+1|  params           list the parameters of a scene
 1|  devices          list what can render on this machine, and what is missing
 1|  help             explain a command or a topic
 1|
@@ -194,6 +196,9 @@ $ kiln help render
 1|      --fps RATE              Frames a second, such as 30 or 30000/1001: --set
 1|                              output.fps=RATE.
 1|      --seed N                Seed of all random numbers: --set seed=N.
+1|      --params FILE           A file with values of the scene's parameters, YAML
+1|                              or JSON, such as {length: 3 s}. Values of --set
+1|                              params.NAME=VALUE replace them.
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands
 1|                              for every entry of a map or list.
@@ -321,7 +326,7 @@ $ kiln help render
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. If an option is
-1|given twice, the last one counts, but these options add up: --set --technique.
+1|given twice, the last one counts, but these options add up: --params --set --technique.
 $ kiln render --help | cmp - <(kiln help render)
 $ kiln render scenes/tiny.yaml -h | cmp - <(kiln help render)
 $ kiln help compare
@@ -408,6 +413,9 @@ $ kiln help check
 1|      --fps RATE              Frames a second, such as 30 or 30000/1001: --set
 1|                              output.fps=RATE.
 1|      --seed N                Seed of all random numbers: --set seed=N.
+1|      --params FILE           A file with values of the scene's parameters, YAML
+1|                              or JSON, such as {length: 3 s}. Values of --set
+1|                              params.NAME=VALUE replace them.
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands
 1|                              for every entry of a map or list.
@@ -428,6 +436,8 @@ $ kiln help check
 1|                              exit code 5 where the kernel cannot do that (see
 1|                              'kiln devices'). Default: the environment's
 1|                              KILN_SANDBOX, or else off.
+1|      --origin                Print behind each line the file and line that it
+1|                              comes from, or 'default'.
 1|      --hash                  Print only the scene's hash.
 1|  -q, --quiet                 Print nothing but errors.
 1|      --events STREAM         Tell other programs how the command goes, in lines
@@ -439,7 +449,7 @@ $ kiln help check
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. If an option is
-1|given twice, the last one counts, but these options add up: --set.
+1|given twice, the last one counts, but these options add up: --params --set.
 $ kiln help devices
 1|usage: kiln devices [OPTION...]
 1|
