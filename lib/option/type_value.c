@@ -166,7 +166,7 @@ static bool is_ordered(const float4 *keys, const struct kiln_range *range)
     for (unsigned e = 0; e < 2; e++) {
         for (uint32_t i = 0; i < bounds[e]->count || i == 0; i++) {
             struct value_clocks clocks =
-                value_clocks_at(bounds[e]->count ? keys[bounds[e]->first + i].x : 0, 0);
+                value_clocks_at(bounds[e]->count ? keys[bounds[e]->first + i].x : 0, 0, 0);
             clocks.life = clocks.time_s;
             if (value_at(keys, range->min, clocks) > value_at(keys, range->max, clocks))
                 return false;

@@ -80,12 +80,13 @@ struct kiln_lane_clocks {
     const float *life, *age_s;
     const struct kiln_floats3 *position, *velocity;
     const uint32_t *stream;
-    uint32_t system;
+    uint32_t system, scene;
 };
 
 static inline struct value_clocks kiln_lane_clocks_at(const struct kiln_lane_clocks *c, uint32_t i)
 {
-    struct value_clocks one = value_clocks_at(c->time_s ? c->time_s[i] : c->same_time_s, c->system);
+    struct value_clocks one =
+        value_clocks_at(c->time_s ? c->time_s[i] : c->same_time_s, c->system, c->scene);
     one.life = c->life ? c->life[i] : 0.0f;
     one.age_s = c->age_s ? c->age_s[i] : 0.0f;
     one.height = c->position ? c->position->y[i] : 0.0f;
@@ -182,7 +183,7 @@ static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v,
                                      const struct kiln_lane_clocks *c, float *y)
 {
     if (v.count == 0 || (!c->time_s && kiln_value_is_shared(v))) {
-        const float all = value_at(keys, v, value_clocks_at(c->same_time_s, c->system));
+        const float all = value_at(keys, v, value_clocks_at(c->same_time_s, c->system, c->scene));
         for (uint32_t i = 0; i < KILN_LANES; i++)
             y[i] = all;
         return;
@@ -208,8 +209,10 @@ static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *
         lanes->born_s[i] = particle_birth_time(derived, kiln_lanes_record(lanes, i));
     for (uint32_t i = 0; i < KILN_LANES; i++)
         lanes->stream[i] = particle_stream(derived, kiln_lanes_record(lanes, i));
-    const struct kiln_lane_clocks birth = {
-        .time_s = lanes->born_s, .stream = lanes->stream, .system = derived.random_key};
+    const struct kiln_lane_clocks birth = {.time_s = lanes->born_s,
+                                           .stream = lanes->stream,
+                                           .system = derived.random_key,
+                                           .scene = derived.scene_key};
     const struct kiln_range *life = &derived.life;
     kiln_lanes_values(keys, life->min, &birth, lanes->life_min_s);
     kiln_lanes_values(keys, life->max, &birth, lanes->life_max_s);

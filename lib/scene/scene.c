@@ -30,23 +30,33 @@ uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame)
     return scene->warmup_steps + frame * scene->steps_per_frame;
 }
 
+static struct value_clocks scene_clocks(const struct kiln_scene *scene, float time_s)
+{
+    const uint32_t key = random_noise_key(scene->seed);
+    return value_clocks_at(time_s, key, key);
+}
+
+struct value_clocks kiln_scene_clocks(const struct kiln_scene *scene, uint32_t system, float time_s)
+{
+    const struct kiln_derived_params derived = kiln_scene_derived(scene, system);
+    return value_clocks_at(time_s, derived.random_key, derived.scene_key);
+}
+
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value, float time_s)
 {
-    return value_at(scene->keys, *value, value_clocks_at(time_s, random_noise_key(scene->seed)));
+    return value_at(scene->keys, *value, scene_clocks(scene, time_s));
 }
 
 float kiln_scene_system_value(const struct kiln_scene *scene, uint32_t system,
                               const struct kiln_value *value, float time_s)
 {
-    return value_at(scene->keys, *value,
-                    value_clocks_at(time_s, kiln_scene_derived(scene, system).random_key));
+    return value_at(scene->keys, *value, kiln_scene_clocks(scene, system, time_s));
 }
 
 float3 kiln_scene_system_value3(const struct kiln_scene *scene, uint32_t system,
                                 const struct kiln_value3 *value, float time_s)
 {
-    return value3_at(scene->keys, *value,
-                     value_clocks_at(time_s, kiln_scene_derived(scene, system).random_key));
+    return value3_at(scene->keys, *value, kiln_scene_clocks(scene, system, time_s));
 }
 
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
@@ -239,6 +249,7 @@ struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, ui
 {
     return (struct kiln_derived_params){
         .random_key = random_system_key(scene->seed, scene->systems[system].seed),
+        .scene_key = random_noise_key(scene->seed),
         .warmup_steps = scene->warmup_steps,
         .dt_s = scene->dt_s,
         .life = scene->systems[system].emit.life};

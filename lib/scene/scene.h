@@ -17,6 +17,7 @@
 #include "scene/camera.h"
 #include "scene/force.h"
 #include "scene/interaction.h"
+#include "scene/light.h"
 #include "scene/pattern.h"
 #include "scene/post.h"
 #include "shared/draw_layout.h"
@@ -370,23 +371,6 @@ struct kiln_object {
     struct kiln_value friction;
 };
 
-enum kiln_light_kind { KILN_LIGHT_POINT, KILN_LIGHT_SPOT, KILN_LIGHT_RECTANGLE };
-
-struct kiln_light {
-    const char *name; /* NULL for an entry of a list */
-    enum kiln_light_kind kind;
-    struct kiln_value3 position; /* of the centre, m */
-    /* Radiance: of a white surface 1 m in front of a point or a spot; of a rectangle itself. */
-    struct kiln_value3 color;
-    struct kiln_value radius;     /* m: softens the centre: 1 / (d^2 + r^2), and the shadows */
-    struct kiln_value3 direction; /* of a spot and a rectangle: where they shine; not zero */
-    struct kiln_value angle;      /* rad, of a spot: from its direction to the edge of its cone */
-    struct kiln_value softness;   /* part of that angle, at its edge, in which the light fades */
-    struct kiln_value width, height; /* of a rectangle, m */
-    struct kiln_value3 up;           /* direction that a rectangle's height is nearest to */
-    bool shadow;                     /* objects hide it */
-};
-
 struct kiln_backdrop {
     bool transparent; /* true: there is neither sky nor floor, and the output has alpha */
     struct kiln_value3 sky_top, sky_horizon;
@@ -511,6 +495,8 @@ uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
  * of a system may have the system's noise, others that of the scene. */
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,
                        float time_s);
+struct value_clocks kiln_scene_clocks(const struct kiln_scene *scene, uint32_t system,
+                                      float time_s);
 float kiln_scene_system_value(const struct kiln_scene *scene, uint32_t system,
                               const struct kiln_value *value, float time_s);
 float3 kiln_scene_system_value3(const struct kiln_scene *scene, uint32_t system,

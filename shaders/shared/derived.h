@@ -28,7 +28,7 @@ FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_parti
 {
     EXACT float born_s = particle_birth_time(d, p);
     uint stream = particle_stream(d, p);
-    EXACT S(value_clocks) clocks = value_clocks_of_birth(born_s, d.random_key, stream);
+    EXACT S(value_clocks) clocks = value_clocks_of_birth(born_s, d.random_key, d.scene_key, stream);
     EXACT float low = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.min, clocks);
     EXACT float high = VALUE_OF(KEYED_LIFE, VALUE_KEYS d.life.max, clocks);
     EXACT float life_s = random_between(stream, RANDOM_LIFE, low, high);

@@ -136,7 +136,8 @@ FN S(emit_state) emit_at_rest(SIM_PARAM S(value_clocks) clocks, uint serial)
 /* Returns place and velocity of a particle born at a clip time. */
 FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
 {
-    EXACT S(value_clocks) clocks = value_clocks_of_birth(time_s, STEP(derived.random_key), stream);
+    EXACT S(value_clocks) clocks =
+        value_clocks_of_birth(time_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
     EXACT S(emit_state) born = emit_at_rest(SIM clocks, serial);
     EXACT float3 origin_rate =
         FLOAT3(VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.x), clocks),
@@ -162,7 +163,8 @@ FN float3 emit_rotate(float3 v, float3 axis)
 FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(emit_state) parent,
                             float3 axis)
 {
-    EXACT S(value_clocks) clocks = value_clocks_of_birth(time_s, STEP(derived.random_key), stream);
+    EXACT S(value_clocks) clocks =
+        value_clocks_of_birth(time_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
     EXACT S(emit_state) own = emit_at_rest(SIM clocks, serial);
     EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), clocks);
     EXACT float3 offset = emit_rotate(own.position, axis);

@@ -30,7 +30,8 @@ FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
     EXACT float life_s = BITS_FLOAT(t.serial_event.w);
     uint stream = random_stream(STEP(derived.random_key), t.serial_event.x);
     EXACT float start_s = STEP(time_s) + t.start.w * STEP(derived.dt_s);
-    EXACT S(value_clocks) clocks = value_clocks_of_birth(start_s, STEP(derived.random_key), stream);
+    EXACT S(value_clocks) clocks =
+        value_clocks_of_birth(start_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
     EXACT float before =
         value_number_at(SIM_KEYS STEP(family.rate), clocks, t.start_velocity.w, life_s);
     clocks.time_s = STEP(time_s) + t.end.w * STEP(derived.dt_s);

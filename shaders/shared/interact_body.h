@@ -60,7 +60,8 @@ FN S(value_clocks) body_clocks(CROWD_PARAM S(kiln_particle) p)
     EXACT float age_s = particle_age(p, INTERACT(step), INTERACT(derived.dt_s));
     EXACT float3 position = particle_position(p);
     EXACT float time_s = INTERACT(time_s);
-    EXACT S(value_clocks) clocks = value_clocks_at(time_s, INTERACT(derived.random_key));
+    EXACT S(value_clocks) clocks =
+        value_clocks_at(time_s, INTERACT(derived.random_key), INTERACT(derived.scene_key));
     clocks.life = particle_progress(age_s, life_s);
     clocks.age_s = age_s;
     clocks.height = position.y;

@@ -25,7 +25,7 @@ struct kiln_derived_params {
     uint random_key;
     uint warmup_steps;
     float dt_s;
-    uint unused;
+    uint scene_key;     /* random numbers of the scene */
     S(kiln_range) life; /* s */
 };
 

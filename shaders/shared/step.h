@@ -81,7 +81,8 @@ FN S(value_clocks) step_clocks(SIM_PARAM S(kiln_particle) p, float age_s, float 
     EXACT float progress = particle_progress(age_before_s, life_s);
     EXACT float3 position = particle_position(p);
     EXACT float time_s = STEP(time_s);
-    EXACT S(value_clocks) clocks = value_clocks_at(time_s, STEP(derived.random_key));
+    EXACT S(value_clocks) clocks =
+        value_clocks_at(time_s, STEP(derived.random_key), STEP(derived.scene_key));
     clocks.life = born ? 0.0f : progress;
     clocks.age_s = born ? 0.0f : age_before_s;
     clocks.height = position.y;

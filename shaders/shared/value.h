@@ -37,6 +37,8 @@
             */
 #define VALUE_DRAW_SHIFT 12u
 #define VALUE_DRAW_BITS  20u
+/* Returns whether the file gives the number of the draw. */
+#define VALUE_IS_SEEDED(how) (((how) >> 31u) != 0u)
 
 /* How a value goes from a key to the next. A curve of steps has slopes of 0. */
 #define VALUE_LINEAR 0u
@@ -90,7 +92,8 @@ struct value_clocks {
     float distance;  /* m */
     float3 velocity; /* m/s */
     uint stream;     /* the particle's random numbers */
-    uint system;     /* the system's key, or the scene's */
+    uint system;     /* the system's random numbers, or the scene's */
+    uint scene;      /* the scene's, which a noise of a system has if the file gives it a seed */
 };
 
 /* A kernel of GLSL may have a mask of the clocks of its values (lib/sim/step/uses.c): bits by the
@@ -113,7 +116,7 @@ struct value_clocks {
 #endif
 
 /* Returns the clocks of a moment at which there is no particle. */
-FN S(value_clocks) value_clocks_at(float time_s, uint system)
+FN S(value_clocks) value_clocks_at(float time_s, uint system, uint scene)
 {
     EXACT S(value_clocks) clocks;
     clocks.time_s = time_s;
@@ -124,13 +127,14 @@ FN S(value_clocks) value_clocks_at(float time_s, uint system)
     clocks.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
     clocks.stream = 0u;
     clocks.system = system;
+    clocks.scene = scene;
     return clocks;
 }
 
 /* Returns the clocks of a particle's birth. */
-FN S(value_clocks) value_clocks_of_birth(float time_s, uint system, uint stream)
+FN S(value_clocks) value_clocks_of_birth(float time_s, uint system, uint scene, uint stream)
 {
-    EXACT S(value_clocks) clocks = value_clocks_at(time_s, system);
+    EXACT S(value_clocks) clocks = value_clocks_at(time_s, system, scene);
     clocks.stream = stream;
     return clocks;
 }
@@ -256,7 +260,8 @@ FN S(value_noise) value_noise_of(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clock
     EXACT float4 entry = value_keys[v.first - 1u];
     EXACT S(value_noise) noise;
     uint draw = RANDOM_VALUES + VALUE_DRAW(v.how);
-    noise.seed = random_bits((v.how & VALUE_OF_PARTICLE) != 0u ? c.stream : c.system, draw);
+    uint of_system = VALUE_IS_SEEDED(v.how) ? c.scene : c.system;
+    noise.seed = random_bits((v.how & VALUE_OF_PARTICLE) != 0u ? c.stream : of_system, draw);
     noise.octaves = UINT(entry.w);
     noise.x = exact_div(c.time_s, entry.z);
     return noise;

@@ -10,7 +10,8 @@ void true_look(const struct true_scene *t, uint32_t system, uint32_t row,
     const struct kiln_view *view = t->view;
     const struct kiln_derived_params derived = t->looks[system].derived;
     const float3 position = particle_position(*record);
-    struct value_clocks clocks = value_clocks_at(view->clock.x, derived.random_key);
+    struct value_clocks clocks =
+        value_clocks_at(view->clock.x, derived.random_key, derived.scene_key);
     clocks.age_s = particle_age(*record, view->clock_step.x, view->clock.y);
     clocks.life =
         particle_progress(clocks.age_s, particle_life_s(t->scene->keys, derived, *record));

@@ -18,7 +18,7 @@ struct true_scene {
     const struct kiln_lighting *lighting;
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
     bool fire_covers; /* additive particles cover, too, or their alpha is summed */
-    float4 *table; /* values of the looks (shared/look_layout.h, draw/moment/look_values.h) */
+    float4 *table;    /* values of the looks (shared/look_layout.h, draw/moment/look_values.h) */
     const struct kiln_look_program *programs; /* of each system; NULL: values over life alone */
 };
 

@@ -24,7 +24,7 @@ static struct kiln_scene *size_scene(const char *text)
 static struct value_clocks clocks_of(const struct kiln_scene *scene, uint32_t serial)
 {
     const uint32_t key = random_system_key(scene->seed, 0);
-    struct value_clocks clocks = value_clocks_at(1.25f, key);
+    struct value_clocks clocks = kiln_scene_clocks(scene, 0, 1.25f);
     clocks.life = 0.25f;
     clocks.age_s = 0.5f;
     clocks.height = 2.0f;
@@ -101,7 +101,7 @@ static void eases_are_their_polynomials(void **state)
         const struct kiln_value *size = &scene->systems[0].look.size;
         for (int i = -100; i <= 400; i++) {
             const float time_s = (float)i * 0.01f;
-            const struct value_clocks now = value_clocks_at(time_s, 0);
+            const struct value_clocks now = kiln_scene_clocks(scene, 0, time_s);
             const double y = (double)value_at(scene->keys, *size, now);
             const double expected = eased(eases[e], ((double)time_s - 0.5) / 2.5);
             if (!(fabs(y - expected) < 1e-5) || y < 1 || y > 3)
@@ -233,6 +233,37 @@ static void draws_have_their_identity(void **state)
     assert_true(correlation(scene, &look->color.x, &look->color.z) > 0.9999);
     /* size is the draw of the seed times another one */
     assert_true(correlation(scene, &look->size, &look->stretch) > 0.5);
+    kiln_scene_destroy(&scene);
+}
+
+/* A lamp whose noise has the seed of a flame's flickers with it. */
+static void noises_of_one_seed_agree(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(
+        "kiln: 1\n"
+        "backdrop:\n"
+        "  lights:\n"
+        "    - point: {color: {noise: [[0, 0, 0], [1, 1, 1]], period: 0.2 s, octaves: 2, seed: "
+        "3}}\n"
+        "    - point: {color: {noise: [[0, 0, 0], [1, 1, 1]], period: 0.2 s, octaves: 2}}\n"
+        "systems:\n"
+        "  other: {}\n"
+        "  flame: {look: {intensity: {noise: [0, 1], period: 0.2 s, octaves: 2, per: system,\n"
+        "    seed: 3}}}\n",
+        NULL);
+    const struct kiln_light *lights = scene->backdrop.lights;
+    double apart = 0;
+    for (int i = 0; i < 200; i++) {
+        const float time_s = (float)i * 0.03f;
+        const float flame =
+            kiln_scene_system_value(scene, 1, &scene->systems[1].look.intensity, time_s);
+        const float same = kiln_scene_value(scene, &lights[0].color.x, time_s);
+        const float other = kiln_scene_value(scene, &lights[1].color.x, time_s);
+        assert_true(FLOAT_BITS(flame) == FLOAT_BITS(same));
+        apart = fmax(apart, fabs((double)other - (double)same));
+    }
+    assert_true(apart > 0.2);
     kiln_scene_destroy(&scene);
 }
 
@@ -428,6 +459,7 @@ int main(void)
         cmocka_unit_test(eases_are_their_polynomials),
         cmocka_unit_test(random_values_have_their_distribution),
         cmocka_unit_test(draws_have_their_identity),
+        cmocka_unit_test(noises_of_one_seed_agree),
         cmocka_unit_test(noise_is_smooth_and_keeps_its_ends),
         cmocka_unit_test(noise_has_its_period),
         cmocka_unit_test(lanes_have_the_same_bits),

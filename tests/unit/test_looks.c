@@ -157,7 +157,7 @@ static void values_over_other_clocks_multiply(void **state)
     const float4 *own = all + (size_t)KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
     const uint32_t key = random_system_key(scene->seed, 1);
     for (uint32_t serial = 0; serial < 400; serial++) {
-        struct value_clocks c = value_clocks_at(time_s, key);
+        struct value_clocks c = kiln_scene_clocks(scene, 1, time_s);
         c.life = (float)serial / 400.0f;
         c.age_s = (float)(serial % 37) * 0.1f;
         c.height = (float)(serial % 11) - 3.0f;
@@ -195,7 +195,7 @@ static void random_temperatures_have_their_light(void **state)
     const float4 *same = all + (size_t)KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
     uint32_t found = 0;
     for (uint32_t serial = 0; serial < 20000; serial++) {
-        struct value_clocks c = value_clocks_at(0, random_system_key(scene->seed, 0));
+        struct value_clocks c = kiln_scene_clocks(scene, 0, 0);
         c.stream = random_stream(c.system, serial);
         const float kelvin = value_at(scene->keys, scene->systems[0].look.temperature, c);
         if (fabsf(kelvin - 2000.0f) > 2.0f)

@@ -192,8 +192,8 @@ static void a_document_fills_its_target(void **state)
     assert_int_equal(p->medium, MEDIUM_GLASS);
     assert_string_equal(p->title, "a \"line\"");
     assert_true(p->room.enabled && p->room.max[2] == 3.0f);
-    assert_true(value_at(r.reader.keys, p->speed, value_clocks_at(1.0f, 0)) == 2.0f);
-    assert_true(value3_at(r.reader.keys, p->place, value_clocks_at(0.5f, 0)).z == 3.5f);
+    assert_true(value_at(r.reader.keys, p->speed, value_clocks_at(1.0f, 0, 0)) == 2.0f);
+    assert_true(value3_at(r.reader.keys, p->place, value_clocks_at(0.5f, 0, 0)).z == 3.5f);
     assert_true(p->ink.y.constant == 0.25f && p->pressure.max.constant == 0.5f);
     assert_true(p->tilt.min.constant == -1.5f && p->tilt.max.constant == -1.5f);
     assert_int_equal(p->tray_count, 2);

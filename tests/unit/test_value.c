@@ -27,7 +27,7 @@ static struct kiln_scene *size_scene(const char *text)
 /* The clocks of a particle at a time, and at a part of its life. */
 static struct value_clocks clocks_at(float time_s, float life)
 {
-    struct value_clocks clocks = value_clocks_at(time_s, 0);
+    struct value_clocks clocks = value_clocks_at(time_s, 0, 0);
     clocks.life = life;
     return clocks;
 }

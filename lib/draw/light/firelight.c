@@ -67,7 +67,7 @@ static void gather_chunks(void *context, size_t begin, size_t end, uint32_t work
 static void sample_glow(struct system_lights *fire)
 {
     for (uint32_t i = 0; i < KILN_LOOK_SAMPLES; i++) {
-        struct value_clocks clocks = value_clocks_at(0.0f, 0);
+        struct value_clocks clocks = value_clocks_at(0.0f, 0, 0);
         clocks.life = (float)i / (float)(KILN_LOOK_SAMPLES - 1);
         const float3 glow = kiln_appearance_glow(&fire->system, &clocks);
         fire->glow.red[i] = glow.x;

@@ -57,7 +57,8 @@ struct value_clocks kiln_appearance_clocks(const struct kiln_appearance_system *
 {
     const struct kiln_particle record = system->records[slot];
     const float3 position = particle_position(record);
-    struct value_clocks clocks = value_clocks_at(system->time_s, system->derived.random_key);
+    struct value_clocks clocks =
+        value_clocks_at(system->time_s, system->derived.random_key, system->derived.scene_key);
     clocks.life = progress;
     clocks.age_s = age_s;
     clocks.height = position.y;

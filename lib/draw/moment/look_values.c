@@ -344,8 +344,7 @@ void kiln_look_programs_sample(const struct kiln_scene *scene,
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
         const struct kiln_look_program *program = &programs[i];
-        const struct value_clocks clocks =
-            value_clocks_at(time_s, kiln_scene_derived(scene, i).random_key);
+        const struct value_clocks clocks = kiln_scene_clocks(scene, i, time_s);
         if (program->count == 0)
             continue;
         find_own(scene, look, &own);

@@ -137,7 +137,7 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
             struct sampler sampler = {
                 .scene = scene,
                 .observer = &observer,
-                .clocks = value_clocks_at(time_s, kiln_scene_derived(scene, i).random_key),
+                .clocks = kiln_scene_clocks(scene, i, time_s),
             };
             sampler.clocks.life = (float)k / (float)(KILN_LOOK_SAMPLES - 1);
             float4 texel[KILN_LOOK_ROWS];

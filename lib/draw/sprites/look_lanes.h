@@ -17,7 +17,7 @@ struct clock_lanes {
 /* Returns the clocks of one lane. */
 SIMD struct value_clocks clocks_of_lane(const struct clock_lanes *c, int lane)
 {
-    struct value_clocks clocks = value_clocks_at(c->time_s, 0);
+    struct value_clocks clocks = value_clocks_at(c->time_s, 0, 0);
     clocks.life = c->life[lane];
     clocks.age_s = c->age_s[lane];
     clocks.height = c->height[lane];

@@ -83,14 +83,15 @@ SIMD vf vf_age(vu birth, uint32_t step, float back, float dt_s)
 
 /* Returns a value that particles get at their births. Most values are constant, so others are
  * evaluated lane by lane. */
-SIMD vf vf_value_at_birth(const float4 *keys, const struct kiln_value *value, uint32_t system,
-                          vf time_s, vu stream)
+SIMD vf vf_value_at_birth(const float4 *keys, const struct kiln_value *value,
+                          const struct kiln_derived_params *d, vf time_s, vu stream)
 {
     if (value->count == 0)
         return vf_all(value->constant);
     vf y;
     for (int i = 0; i < LANES; i++)
-        y[i] = value_at(keys, *value, value_clocks_of_birth(time_s[i], system, stream[i]));
+        y[i] = value_at(keys, *value,
+                        value_clocks_of_birth(time_s[i], d->random_key, d->scene_key, stream[i]));
     return y;
 }
 
@@ -99,9 +100,8 @@ SIMD vf vf_life(const float4 *keys, const struct kiln_derived_params *d, vu stre
 {
     vf before = vf_of((vi)((birth >> KILN_BIRTH_STEP_SHIFT) - 1u)) - (float)d->warmup_steps;
     vf born_s = (before + vf_birth_fraction(birth)) * d->dt_s;
-    const uint32_t system = d->random_key;
-    return vf_lerp_clamped(vf_value_at_birth(keys, &d->life.min, system, born_s, stream),
-                           vf_value_at_birth(keys, &d->life.max, system, born_s, stream),
+    return vf_lerp_clamped(vf_value_at_birth(keys, &d->life.min, d, born_s, stream),
+                           vf_value_at_birth(keys, &d->life.max, d, born_s, stream),
                            vu_unit(stream, RANDOM_LIFE));
 }
 

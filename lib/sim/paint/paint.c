@@ -180,7 +180,7 @@ static struct value_clocks clocks_of(const struct making *m, const struct kiln_t
                                      const struct mark *mark, float time_s)
 {
     const uint32_t key = m->step->derived.random_key;
-    struct value_clocks clocks = value_clocks_at(time_s, key);
+    struct value_clocks clocks = value_clocks_at(time_s, key, m->step->derived.scene_key);
     clocks.life = mark->life;
     clocks.age_s = mark->life * BITS_FLOAT(trace->serial_event.w);
     clocks.height = mark->at.y;

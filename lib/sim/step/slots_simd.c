@@ -39,6 +39,7 @@ static inline void find_ages(const struct kiln_sim *sim, struct kiln_block *b)
         .position = &b->at,
         .stream = b->lanes.stream,
         .system = sim->step->derived.random_key,
+        .scene = sim->step->derived.scene_key,
     };
 }
 

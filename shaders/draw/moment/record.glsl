@@ -57,7 +57,8 @@ vec4 look_at(uint system, int row, float life)
 void look_find(uint system, kiln_particle record, uint stream, float age, float life)
 {
     vec3 position = particle_position(record);
-    value_clocks clocks = value_clocks_at(view.clock.x, looks[system].derived.random_key);
+    value_clocks clocks = value_clocks_at(view.clock.x, looks[system].derived.random_key,
+                                          looks[system].derived.scene_key);
     clocks.life = life;
     clocks.age_s = age;
     clocks.height = position.y;
