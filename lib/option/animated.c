@@ -226,7 +226,9 @@ static bool read_points(struct kiln_reader *reader, const struct kiln_node *node
             x = (float)places[index];
         else if (!entry->key && node->count > 1) /* at equal distances */
             x = (float)((double)index / (double)(node->count - 1));
-        if (!kiln_read_plain(reader, &option, entry, y, curve->count) ||
+        if (!kiln_read_plain(reader, &option, entry, y, curve->count))
+            return false;
+        if (!(places && places[index] < 0) &&
             !kiln_curve_add(reader, entry->key ? entry->key : entry, curve, x, y))
             return false;
         kiln_reader_leave(reader, before);
@@ -234,8 +236,10 @@ static bool read_points(struct kiln_reader *reader, const struct kiln_node *node
     return true;
 }
 
-/* Reads the weights of a choice, and finds at which part of all of them each entry begins. */
-static bool read_weights(struct kiln_reader *reader, const struct form *form, double *places)
+/* Reads the weights of a choice, and finds at which part of all of them each entry begins: below 0
+ * for one without weight. Sets how many have a weight. */
+static bool read_weights(struct kiln_reader *reader, const struct form *form, double *places,
+                         uint32_t *weighed)
 {
     const struct kiln_node *weights = form->beside[KILN_BESIDE_WEIGHTS],
                            *entry = weights ? weights->first : NULL;
@@ -251,12 +255,13 @@ static bool read_weights(struct kiln_reader *reader, const struct form *form, do
         double weight = 1;
         if (entry && !kiln_read_number(reader, &kiln_value_weight, entry, &weight))
             return false;
-        places[i] = sum;
+        places[i] = weight > 0 ? sum : -1;
         sum += weight;
         entry = entry ? entry->next : NULL;
-        if (!(weight > 0))
-            return kiln_reader_error(reader, weights, "every weight must be above 0");
+        *weighed += weight > 0 ? 1 : 0;
     }
+    if (*weighed == 0)
+        return kiln_reader_error(reader, weights, "one weight at least must be above 0");
     for (uint32_t i = 0; i < count; i++)
         places[i] /= sum;
     kiln_reader_leave(reader, before);
@@ -270,6 +275,7 @@ static bool read_keys(struct kiln_reader *reader, const struct form *form, struc
     const struct kiln_node *keys = form->curve;
     const struct kiln_value_clock *clock = form->clock;
     double places[KILN_NODE_MAX_ENTRIES];
+    uint32_t count = clock->only_list ? 0 : keys->count;
     size_t before = kiln_reader_enter(reader, clock->name);
     if (!clock->takes_list && keys->kind != KILN_NODE_MAP)
         return kiln_reader_expected(reader, keys,
@@ -285,10 +291,10 @@ static bool read_keys(struct kiln_reader *reader, const struct form *form, struc
     const bool chooses = clock->only_list;
     kiln_reader_leave(reader, before);
     if (chooses && keys->count > 0 && keys->count <= KILN_NODE_MAX_ENTRIES &&
-        !read_weights(reader, form, places))
+        !read_weights(reader, form, places, &count))
         return false;
     before = kiln_reader_enter(reader, clock->name);
-    if (!kiln_curve_begin(reader, keys, curve, how) ||
+    if (!kiln_curve_begin(reader, keys, curve, count, how) ||
         !read_points(reader, keys, curve, chooses ? places : NULL))
         return false;
     kiln_reader_leave(reader, before);

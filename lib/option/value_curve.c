@@ -28,11 +28,11 @@ _Static_assert((int)KILN_NODE_MAX_ENTRIES <= VALUE_MAX_KEYS, "the search finds e
 _Static_assert(VALUE_MAX_KEYS < 2048, "an entry has room for the count");
 
 bool kiln_curve_begin(struct kiln_reader *reader, const struct kiln_node *node,
-                      struct kiln_curve *curve, uint32_t how)
+                      struct kiln_curve *curve, uint32_t count, uint32_t how)
 {
-    if (node->count == 0)
+    if (count == 0)
         return kiln_reader_error(reader, node, "found no keys; at least one is needed");
-    const uint32_t each = curve->entries + node->count; /* node->count <= KILN_NODE_MAX_ENTRIES */
+    const uint32_t each = curve->entries + count;
     const uint32_t needed = curve->count * each;
     if (needed > KILN_MAX_VALUE_KEYS - reader->key_count)
         return kiln_reader_error(
@@ -42,10 +42,8 @@ bool kiln_curve_begin(struct kiln_reader *reader, const struct kiln_node *node,
     if (!reserve_keys(reader, reader->key_count + needed))
         return kiln_reader_out_of_memory(reader);
     for (unsigned i = 0; i < curve->count; i++) {
-        curve->values[i] =
-            (struct kiln_value){.first = reader->key_count + i * each + curve->entries,
-                                .count = node->count,
-                                .how = how};
+        curve->values[i] = (struct kiln_value){
+            .first = reader->key_count + i * each + curve->entries, .count = count, .how = how};
         for (uint32_t k = 1; k <= curve->entries; k++)
             reader->keys[curve->values[i].first - k] = FLOAT4(0, 0, 0, 0);
     }

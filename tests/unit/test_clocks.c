@@ -175,6 +175,9 @@ static void random_values_have_their_distribution(void **state)
     const double weights[] = {0.6, 0.2, 0.2};
     count_draws("{choose: [1, 2, 3], weights: [3, 1, 1]}", about, 3, counts);
     assert_true(chi_square(counts, weights, 3) < 27.7);
+    const double without[] = {0.75, 1e-9, 0.25};
+    count_draws("{choose: [1, 2, 3], weights: [3, 0, 1]}", about, 3, counts);
+    assert_true(chi_square(counts, without, 3) < 27.7);
     const double even[] = {1 / 3.0, 1 / 3.0, 1 / 3.0};
     count_draws("{choose: [1, 2, 3]}", about, 3, counts);
     assert_true(chi_square(counts, even, 3) < 27.7);

@@ -65,8 +65,8 @@ static const struct bad curves[] = {
      ":2:54: systems.a.look.size.weights: expected a list of 2 weights, one for each of what is "
      "chosen from"},
     {"kiln: 1\n"
-     "systems: {a: {look: {size: {choose: [1, 2], weights: [1, 0]}}}}\n",
-     ":2:54: systems.a.look.size.weights: every weight must be above 0"},
+     "systems: {a: {look: {size: {choose: [1, 2], weights: [0, 0]}}}}\n",
+     ":2:54: systems.a.look.size.weights: one weight at least must be above 0"},
     {"kiln: 1\n"
      "systems: {a: {look: {size: {choose: {0: 1}}}}}\n",
      ":2:37: systems.a.look.size.choose: expected a list of what is chosen from, found a mapping"},
