@@ -16,8 +16,8 @@ struct kiln_curve {
     uint32_t ease;    /* VALUE_LINEAR and so on */
 };
 
-/* Takes room in the table for `count` keys of each component, at most KILN_NODE_MAX_ENTRIES, and for
- * the entries before them; fills the values but for the keys. node: what an error is about. */
+/* Takes room in the table for `count` keys of each component, at most KILN_NODE_MAX_ENTRIES, and
+ * for the entries before them; fills the values but for the keys. node: what an error is about. */
 bool kiln_curve_begin(struct kiln_reader *reader, const struct kiln_node *node,
                       struct kiln_curve *curve, uint32_t count, uint32_t how);
 

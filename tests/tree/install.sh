@@ -16,7 +16,7 @@ for file in bin/kiln include/kiln.h include/kiln_{compare,job,limits,sandbox}.h;
     [[ -f $prefix/$file ]] || { echo "$file is not installed"; exit 1; }
 done
 headers=$(find "$prefix/include" -type f | wc -l)
-[[ $headers == 5 ]] || { echo "$headers headers are installed; the library has five"; exit 1; }
+[[ $headers == 6 ]] || { echo "$headers headers are installed; the library has six"; exit 1; }
 for file in kiln/scenes/fire_beam.yaml kiln/scene.schema.json man/man1/kiln.1 man/man5/kiln-scene.5 \
     bash-completion/completions/kiln zsh/site-functions/_kiln fish/vendor_completions.d/kiln.fish; do
     [[ -f $prefix/share/$file ]] || { echo "share/$file is not installed"; exit 1; }
