@@ -17,7 +17,9 @@
 #define SYSTEM(name, seed)                                                                         \
     "  " name ":\n" seed "    emit: {rate: 200, life: [0.5 s, 1 s], speed: [1, 3],\n"              \
     "           from: {sphere: {origin: [0, 1, 0], radius: 0.4 m}}}\n"                             \
-    "    collide: {randomness: 0.5}\n"
+    "    forces: [{drag: {random: [0, 2]}},\n"                                                     \
+    "             {wind: {velocity: {noise: [[0, 0, 0], [1, 1, 1]], per: particle}}}]\n"           \
+    "    collide: {randomness: {random: [0, 1], times: {noise: [0, 1], per: system}}}\n"
 #define FIRST(more) "  first:\n    emit: {rate: 50}\n" more
 #define OFF(more)   "  first:\n    enabled: false\n    emit: {rate: 50}\n" more
 
@@ -91,6 +93,20 @@ static void a_system_with_a_seed_stays_as_it_is(void **state)
     assert_false(fly_alike(alone, HEAD SYSTEM("dust", "    seed: 4294967294\n")));
 }
 
+/* What is used, and what uses it, draw for themselves. */
+static void a_system_that_is_used_stays_as_it_is(void **state)
+{
+    (void)state;
+    static const char alone[] = HEAD SYSTEM("dust", "    seed: 0\n");
+    assert_true(
+        fly_alike(alone, HEAD "  one: {use: dust, seed: 8}\n  two: {use: one, seed: 9}\n" SYSTEM(
+                             "dust", "    seed: 0\n")));
+    assert_true(
+        fly_alike(alone, HEAD SYSTEM("dust", "    seed: 7\n") "  copy: {use: dust, seed: 0}\n"));
+    assert_false(
+        fly_alike(alone, HEAD SYSTEM("dust", "    seed: 0\n") "  copy: {use: dust, seed: 1}\n"));
+}
+
 static void check_hashes(const char *one, const char *other, bool same)
 {
     struct kiln_scene *a = load(one, NULL), *b = load(other, NULL);
@@ -157,6 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_system_with_a_seed_stays_as_it_is),
+        cmocka_unit_test(a_system_that_is_used_stays_as_it_is),
         cmocka_unit_test(a_seed_belongs_to_the_hash_unless_it_is_the_place),
         cmocka_unit_test(a_printed_scene_has_all_numbers),
         cmocka_unit_test(a_number_that_another_system_has_asked_for_is_warned_of),

@@ -48,6 +48,13 @@ $ kiln check title.yaml | grep -E 'frames|roll|objects|ball|other|radius|left|ri
 1|      rate: 40 1/s
 1|    radius: 0.7
 1|# work: 60 frames of 64 x 32 pixels, 118 steps, up to 51 particles, about <n> MiB
+$ kiln check title.yaml | grep -E '^  (left|right|flames):' -A 2 | grep -vE 'enabled|--' # numbers of draws
+1|  left:
+1|    seed: 0
+1|  right:
+1|    seed: 1
+1|  flames:
+1|    seed: 2
 $ kiln check title.yaml --origin | grep -v '# default'
 1|kiln: 1  # title.yaml:1
 1|output:  # title.yaml:9
