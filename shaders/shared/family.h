@@ -23,20 +23,35 @@ struct family_event {
     bool happens;
 };
 
+/* Does family_number_at for a rate that varies. */
+FN_APART float family_number_of_keys(SIM_PARAM S(kiln_trace) t, float part, float progress)
+{
+    EXACT float life_s = BITS_FLOAT(t.serial_event.w);
+    uint stream = random_stream(STEP(derived.random_key), t.serial_event.x);
+    EXACT float time_s = STEP(time_s) + part * STEP(derived.dt_s);
+    EXACT S(value_clocks) clocks =
+        value_clocks_of_birth(time_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
+    return value_number_at(SIM_KEYS STEP(family.rate), clocks, progress, life_s);
+}
+
+/* Returns how many children a trail has had at a part of the step, when the parent had some
+ * progress through its life. */
+FN float family_number_at(SIM_PARAM S(kiln_trace) t, float part, float progress)
+{
+    if (STEP(family.rate.count) != 0u)
+        return family_number_of_keys(SIM t, part, progress);
+    EXACT float life_s = BITS_FLOAT(t.serial_event.w);
+    EXACT float sum = STEP(family.rate.constant) * progress;
+    EXACT float number = sum * life_s;
+    return number;
+}
+
 /* Finds the birth of child j of a trail. It is born when the integral of the rate over the parent's
  * life passes j: in the step in which this happens, at a linearly interpolated time. */
 FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
 {
-    EXACT float life_s = BITS_FLOAT(t.serial_event.w);
-    uint stream = random_stream(STEP(derived.random_key), t.serial_event.x);
-    EXACT float start_s = STEP(time_s) + t.start.w * STEP(derived.dt_s);
-    EXACT S(value_clocks) clocks =
-        value_clocks_of_birth(start_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
-    EXACT float before =
-        value_number_at(SIM_KEYS STEP(family.rate), clocks, t.start_velocity.w, life_s);
-    clocks.time_s = STEP(time_s) + t.end.w * STEP(derived.dt_s);
-    EXACT float after =
-        value_number_at(SIM_KEYS STEP(family.rate), clocks, t.end_velocity.w, life_s);
+    EXACT float before = family_number_at(SIM t, t.start.w, t.start_velocity.w);
+    EXACT float after = family_number_at(SIM t, t.end.w, t.end_velocity.w);
     EXACT float count = FLOAT(j);
     EXACT float passed = count - before;
     EXACT float whole = after - before;

@@ -331,8 +331,8 @@ FN float value_limited(VALUE_KEYS_PARAM S(kiln_value) v, float result)
     return y;
 }
 
-/* Returns a value that has keys. */
-FN float value_of_keys(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c)
+/* Returns a value that is not plain. */
+FN_APART float value_of_keys(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c)
 {
     EXACT float result = 0.0f;
     for (uint part = 0u; part < VALUE_ENTRIES; part++) {
@@ -414,14 +414,9 @@ FN float value_curve_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c
     return value_slope_at(VALUE_KEYS v, c.time_s);
 }
 
-/* Returns how fast a value changes with the time, per second: 0 before the first and from the last
- * key on, and where the value is at a limit. */
-FN float value_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c)
+/* Does value_rate_at for a value that is not plain. */
+FN_APART float value_rate_of_keys(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c)
 {
-    if (v.count == 0u)
-        return 0.0f;
-    if (!(VALUE_USES(VALUE_USES_PARTS) && VALUE_NOT_PLAIN(v.how)))
-        return value_curve_rate_at(VALUE_KEYS v, c);
     EXACT float result = 0.0f;
     EXACT float rate = 0.0f;
     for (uint part = 0u; part < VALUE_ENTRIES; part++) {
@@ -444,6 +439,17 @@ FN float value_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c)
     }
     EXACT float limited = value_limited(VALUE_KEYS v, result);
     return limited == result ? rate : 0.0f;
+}
+
+/* Returns how fast a value changes with the time, per second: 0 before the first and from the last
+ * key on, and where the value is at a limit. */
+FN float value_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, S(value_clocks) c)
+{
+    if (v.count == 0u)
+        return 0.0f;
+    if (VALUE_USES(VALUE_USES_PARTS) && VALUE_NOT_PLAIN(v.how))
+        return value_rate_of_keys(VALUE_KEYS v, c);
+    return value_curve_rate_at(VALUE_KEYS v, c);
 }
 
 /* Returns the integral of a plain curve over life from 0 to x >= 0. If no value is negative, it

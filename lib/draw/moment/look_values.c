@@ -138,6 +138,27 @@ static void find_own(const struct kiln_scene *scene, const struct kiln_look *loo
     }
 }
 
+/* Replaces a value over another clock than life by 1. */
+static void replace_own(const float4 *keys, void *look, size_t at)
+{
+    struct kiln_value *value = (struct kiln_value *)((char *)look + at);
+    if (kiln_look_value_is_own(keys, value))
+        *value = (struct kiln_value){.constant = 1.0f};
+}
+
+struct kiln_look kiln_look_over_life(const float4 *keys, const struct kiln_look *look)
+{
+    struct kiln_look over_life = *look;
+    for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
+        replace_own(keys, &over_life, scalars[i].at);
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, x));
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, y));
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, z));
+    }
+    return over_life;
+}
+
 /* ---- programs ------------------------------------------------------------------------------- */
 
 static bool has_part(uint32_t how, uint32_t part)

@@ -44,6 +44,9 @@ struct kiln_look_program {
 /* Returns whether a value has a clock that the table does not have. */
 bool kiln_look_value_is_own(const float4 *keys, const struct kiln_value *value);
 
+/* Returns a look in which values over other clocks than the time and a particle's life are 1. */
+struct kiln_look kiln_look_over_life(const float4 *keys, const struct kiln_look *look);
+
 /* Returns how many rows the table of a scene has: those of all systems, and those of values. */
 uint32_t kiln_look_rows(const struct kiln_scene *scene);
 

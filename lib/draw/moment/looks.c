@@ -22,19 +22,18 @@ static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING
 struct sampler {
     const struct kiln_scene *scene;
     const struct kiln_observer *observer;
+    bool own_temperature; /* the temperature is a value over another clock than life */
     struct value_clocks clocks;
 };
 
 static float at(const struct sampler *s, const struct kiln_value *value)
 {
-    if (kiln_look_value_is_own(s->scene->keys, value))
-        return 1.0f;
     return value_at(s->scene->keys, *value, s->clocks);
 }
 
 static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 {
-    return (float3){at(s, &value->x), at(s, &value->y), at(s, &value->z)};
+    return value3_at(s->scene->keys, *value, s->clocks);
 }
 
 /* Returns the mean of a value from birth to the sampler's age. For a spin, the mean times the age
@@ -42,8 +41,7 @@ static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 static float mean_at(const struct sampler *s, const struct kiln_value *value)
 {
     const float progress = s->clocks.life;
-    if (value->count == 0 || VALUE_CLOCK(value->how) != KILN_CLOCK_LIFE || progress <= 0.0f ||
-        kiln_look_value_is_own(s->scene->keys, value))
+    if (value->count == 0 || VALUE_CLOCK(value->how) != KILN_CLOCK_LIFE || progress <= 0.0f)
         return at(s, value);
     return value_sum_at(s->scene->keys, *value, s->clocks, progress) / progress;
 }
@@ -89,7 +87,7 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     float3 other = at3(s, &look->sphere.color);
     row[KILN_LOOK_COVER] = additive ? covers_none : cover;
     row[KILN_LOOK_OTHER] = additive ? covers_none : (float4){other.x, other.y, other.z, cover.w};
-    if (kiln_look_value_is_own(s->scene->keys, &look->temperature)) {
+    if (s->own_temperature) {
         row[KILN_LOOK_HOT] = (float4){tint.x, tint.y, tint.z, near_fade};
         row[KILN_LOOK_COOL] = (float4){tint.x, tint.y, tint.z, cycles};
     } else if (kelvin > 0.0f) {
@@ -133,15 +131,18 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
     kiln_observer_fill(&observer);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         float4 *rows = table + (size_t)i * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
+        const struct kiln_look *whole = &scene->systems[i].look;
+        const struct kiln_look look = kiln_look_over_life(scene->keys, whole);
+        struct sampler sampler = {
+            .scene = scene,
+            .observer = &observer,
+            .own_temperature = kiln_look_value_is_own(scene->keys, &whole->temperature),
+            .clocks = kiln_scene_clocks(scene, i, time_s),
+        };
         for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
-            struct sampler sampler = {
-                .scene = scene,
-                .observer = &observer,
-                .clocks = kiln_scene_clocks(scene, i, time_s),
-            };
             sampler.clocks.life = (float)k / (float)(KILN_LOOK_SAMPLES - 1);
             float4 texel[KILN_LOOK_ROWS];
-            sample_look(&sampler, &scene->systems[i].look, texel);
+            sample_look(&sampler, &look, texel);
             for (uint32_t row = 0; row < KILN_LOOK_ROWS; row++)
                 rows[row * KILN_LOOK_SAMPLES + k] = texel[row];
         }
