@@ -4,6 +4,31 @@
  * the macros of the rows; FILLS is the struct that the next tables fill. */
 #include "scene/rows.h"
 
+#define FILLS struct kiln_burst
+
+TABLE(burst_options) = {
+    {ROW(MOTION, "at", number, time_s, "0 s", "Clip time of the burst."),
+     LIMITS(KILN_SECONDS, -100000, 1000000), .is_of_clip = true},
+    {ROW(MOTION, "count", counts, count, NULL,
+         "Number of particles. Of two numbers, each repetition draws its own between them."),
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES)},
+    {ROW(MOTION, "every", number, every_s, "0 s",
+         "The burst is repeated every so often, at least 1 ms apart. With 0 s it is not repeated."),
+     LIMITS(KILN_SECONDS, 0, 1000000)},
+    {ROW(MOTION, "most", integer, most, "none",
+         "The most repetitions, the first one included. With none, they go on to the end of the "
+         "clip."),
+     LIMITS(KILN_PLAIN, 1, 1000000), .special_word = "none"},
+    {ROW(MOTION, "jitter", number, jitter_s, "0 s",
+         "Each repetition comes later by a time that is drawn, of 0 s to this. At most `every`, if "
+         "the burst is repeated."),
+     LIMITS(KILN_SECONDS, 0, 1000000)},
+    END,
+};
+
+ITEM_OF_ROWS(burst, burst_options);
+
+#undef FILLS
 #define FILLS struct kiln_emitter
 
 /* Options that every shape has. `spread` is the default of `angle`. */
@@ -180,10 +205,11 @@ TABLE(emit_options) = {
            "shape `from` then lies around the parent's particle."),
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
-         "Particles that are born at once: a map of clip times, in seconds, to their numbers. The "
-         "frame at 0 s shows those of 0 s, at age 0; another frame shows the bursts before its "
-         "time."),
-     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), COUNTED(bursts, burst_count)},
+         "Particles that are born at once: a map of clip times, in seconds, to their numbers, or a "
+         "list of bursts that may be repeated. The frame at 0 s shows those of 0 s, at age 0; "
+         "another frame shows the bursts before its time. A step has at most 64 bursts."),
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .item = &burst,
+     .item_size = sizeof(struct kiln_burst), COUNTED(bursts, burst_count)},
     RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, BIRTH(13), "1 s",
           "How long a particle lives. The value is drawn at its birth."),
     RANGE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, BIRTH(14), "1 m/s",

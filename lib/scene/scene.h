@@ -78,7 +78,7 @@ struct kiln_parent {
 struct kiln_emitter {
     struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
     struct kiln_value rate;    /* particles a second; clock constant or time */
-    struct kiln_burst bursts[KILN_MAX_BURSTS]; /* ascending in time */
+    struct kiln_burst bursts[KILN_MAX_BURSTS];
     uint32_t burst_count;
     struct kiln_range life;  /* s, at birth */
     struct kiln_range speed; /* m/s, at birth */

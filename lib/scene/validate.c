@@ -123,6 +123,18 @@ static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uin
     return kiln_births_bound(&births.source, steps, kiln_family_lifespan(scene, index, steps));
 }
 
+static bool refuse_crowd(struct kiln_reader *reader, const struct kiln_node *root,
+                         const struct kiln_system *system, uint32_t step)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    char path[128], time[48];
+    snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
+    kiln_unit_print(time, KILN_SECONDS, kiln_scene_time(scene, step - 1));
+    return kiln_reader_error_at(reader, root, path,
+                                "the step at %s has more than %d bursts: let them be less frequent",
+                                time, KILN_MAX_BURSTS);
+}
+
 static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -135,6 +147,8 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
         uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer may be empty */
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
+        if (bound.crowded)
+            return refuse_crowd(reader, root, system, bound.crowded);
         const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
         const char *advice = system->emit.parent.enabled ? "children, or the parents' rate or life"
                                                          : "rate, bursts or life";

@@ -140,9 +140,36 @@ static const struct bad types[] = {
      "systems: {a: {collide: true}}\n",
      ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
     {"kiln: 1\n"
-     "systems: {a: {emit: {bursts: [1]}}}\n",
+     "systems: {a: {emit: {bursts: 9}}}\n",
      ":2:30: systems.a.emit.bursts: expected {time: particles, ...}, each number of particles a "
-     "whole number from 0 to 33554432, found a list"},
+     "whole number from 0 to 33554432, or a list of bursts, found '9'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [1]}}}\n",
+     ":2:31: systems.a.emit.bursts.0: expected a mapping of keys, found '1'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{at: 0 s}]}}}\n",
+     ":2:31: systems.a.emit.bursts.0.count: the key is missing and must be given"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: [30, 20]}]}}}\n",
+     ":2:39: systems.a.emit.bursts.0.count: 30 is above 20; the least number comes first"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: [1, 2, 3]}]}}}\n",
+     ":2:39: systems.a.emit.bursts.0.count: expected a whole number from 0 to 33554432, or the "
+     "least and the greatest of those that are drawn, [a, b], found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: 1, every: 0.1 ms}]}}}\n",
+     ":2:31: systems.a.emit.bursts.0: `every` is 0.0001 s; it must be 0 s, for a burst that is not "
+     "repeated, or at least 0.001 s"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: 1, every: 1 s, jitter: 2 s}]}}}\n",
+     ":2:31: systems.a.emit.bursts.0: the jitter of a burst that is repeated every 1 s must be at "
+     "most that; it is 2 s"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{at: 0.5 s, count: 1, every: 1 ms}]}}}\n"
+     "output: {fps: 10}\n"
+     "simulation: {rate: 10}\n",
+     ":2:30: systems.a.emit.bursts: the step at 0.5 s has more than 64 bursts: let them be less "
+     "frequent"},
     {"kiln: 1\n"
      "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "
