@@ -96,3 +96,9 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system)
     const struct kiln_system *s = system;
     return s->seed != (uint32_t)(s - in->systems) ? BOTH : 0;
 }
+
+unsigned kiln_row_if_region(const void *scene, const void *force)
+{
+    (void)scene;
+    return ((const struct kiln_force *)force)->region.enabled ? BOTH : 0;
+}

@@ -15,6 +15,7 @@
 #include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
 #include "scene/object_mesh.h"
+#include "scene/options.h"
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
 #include "scene/scene_births.h"
@@ -289,6 +290,23 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
+/* Checks that a force that acts in a region has one. */
+static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
+                          const struct kiln_system *system)
+{
+    char path[128];
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        const struct kiln_force_region *region = &system->forces[i].region;
+        const struct kiln_option_kind *kind = kiln_force_kinds;
+        while (kind->value != (int)system->forces[i].kind)
+            kind++;
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region", system->name, i, kind->name);
+        if (region->enabled && region->box == region->sphere)
+            return kiln_reader_error_at(reader, root, path, "must have one of `box` and `sphere`");
+    }
+    return true;
+}
+
 /* Checks a system's interactions. Two of a kind are refused, since each would be computed from the
  * state before the other. */
 static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
@@ -377,8 +395,8 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !kiln_motion_layout_settle(reader, root, system) ||
-            !check_interactions(reader, root, system) || !check_distances(reader, root, i) ||
-            !kiln_particle_mesh_settle(reader, root, system))
+            !check_regions(reader, root, system) || !check_interactions(reader, root, system) ||
+            !check_distances(reader, root, i) || !kiln_particle_mesh_settle(reader, root, system))
             return false;
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;

@@ -70,6 +70,11 @@ struct kiln_emit_params {
 #define VORTEX_RANKINE    0u
 #define VORTEX_LAMB_OSEEN 1u
 
+/* Where a force acts. */
+#define REGION_NONE   0u /* everywhere */
+#define REGION_BOX    1u
+#define REGION_SPHERE 2u
+
 /* The options of a force. All kinds have one layout, so some members are of another quantity in
  * each kind: struct kiln_force (lib/scene/force.h) has them by their names. */
 struct kiln_force_params {
@@ -85,7 +90,9 @@ struct kiln_force_params {
     S(kiln_value) scale;     /* curl: size of the eddies; attract, vortex: radius; m */
     float inward, lift;      /* m/s */
     float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
-    uint unused;
+    uint region; /* REGION_* */
+    float4 region_center; /* m; w: over how many metres inside of the border the force fades */
+    float4 region_size;   /* m: half of the edges of a box; x: radius of a sphere */
 };
 
 #define INTEGRATE_SEMI_IMPLICIT  0u

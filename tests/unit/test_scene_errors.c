@@ -171,6 +171,12 @@ static const struct bad types[] = {
      ":2:30: systems.a.emit.bursts: the step at 0.5 s has more than 64 bursts: let them be less "
      "frequent"},
     {"kiln: 1\n"
+     "systems: {a: {forces: [drag: {region: {falloff: 1 m}}]}}\n",
+     ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [gravity: {region: {box: {}, sphere: {}}}]}}\n",
+     ":2:42: systems.a.forces.0.gravity.region: must have one of `box` and `sphere`"},
+    {"kiln: 1\n"
      "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "
      "m to 100000 m, or none, found a mapping"},
@@ -318,7 +324,8 @@ static const struct bad kinds[] = {
      ":2:39: systems.a.forces.0.wind.field: expected a word, found a list"},
     {"kiln: 1\n"
      "systems: {a: {forces: [{wind: {octaves: 2}}]}}\n",
-     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode)"},
+     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode, "
+     "region)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
      ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "

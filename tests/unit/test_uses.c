@@ -89,6 +89,7 @@ static void values_with_keys_are_known(void **state)
         {"systems.a.forces=[curl: {strength: " OVER_LIFE "}]", BIT(KEYED_FORCE_STRENGTH)},
         {"systems.a.forces=[curl: {pull: " OVER_LIFE "}]", BIT(KEYED_FORCE_PULL)},
         {"systems.a.forces=[drag: {quadratic: " OVER_LIFE "}]", BIT(KEYED_FORCE_QUADRATIC)},
+        {"systems.a.forces=[vortex: {radius: " OVER_LIFE "}]", BIT(KEYED_FORCE_SCALE)},
         /* values that the host evaluates in each step */
         {"systems.a.forces=[curl: {strength: " OVER_TIME "}]", 0},
         {"systems.a.collide={slowdown: {keys: {0 s: 1, 1 s: 0.5}}}", 0},
@@ -105,6 +106,7 @@ static void forces_are_known(void **state)
         {"systems.a.forces=[drag: 1, wind: {}]", BIT(FORCE_DRAG) | BIT(FORCE_WIND)},
         {"systems.a.forces=[curl: {}, attract: {}]", BIT(FORCE_CURL) | BIT(FORCE_ATTRACT)},
         {"systems.a.forces=[vortex: 1]", BIT(FORCE_VORTEX)},
+        {"systems.a.forces=[drag: {region: {sphere: {}}}]", BIT(FORCE_DRAG) | BIT(FORCE_IN_REGION)},
     };
     EXPECT("USES_FORCES", uses);
 }

@@ -17,7 +17,7 @@
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
 static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
-static_assert(sizeof(struct kiln_force_params) == 192, "std140");
+static_assert(sizeof(struct kiln_force_params) == 224, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
@@ -25,8 +25,8 @@ static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 7952, "std140");
-static_assert(sizeof(struct kiln_step_params) == 8000, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 8976, "std140");
+static_assert(sizeof(struct kiln_step_params) == 9024, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -274,6 +274,23 @@ static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 va
     return (struct kiln_value3){at_time(m, value.x), at_time(m, value.y), at_time(m, value.z)};
 }
 
+/* Fills in where a force acts. */
+static void fill_region(struct kiln_force_params *params, const struct moment *m,
+                        const struct kiln_force_region *region)
+{
+    const struct kiln_scene *scene = m->scene;
+    const struct kiln_value3 *center = region->sphere ? &region->ball_center : &region->box_center;
+    const float3 place = kiln_scene_system_value3(scene, m->system, center, m->time_s);
+    const float3 edges = kiln_scene_system_value3(scene, m->system, &region->box_size, m->time_s);
+    const float radius = kiln_scene_system_value(scene, m->system, &region->radius, m->time_s);
+    const float falloff = kiln_scene_system_value(scene, m->system, &region->falloff, m->time_s);
+    params->region = region->sphere ? REGION_SPHERE : REGION_BOX;
+    params->region_center = FLOAT4(place.x, place.y, place.z, falloff);
+    params->region_size = FLOAT4(0.5f * edges.x, 0.5f * edges.y, 0.5f * edges.z, 0.0f);
+    if (region->sphere)
+        params->region_size = FLOAT4(radius, 0.0f, 0.0f, 0.0f);
+}
+
 static struct kiln_force_params force_at_time(const struct moment *m,
                                               const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force)
@@ -296,6 +313,8 @@ static struct kiln_force_params force_at_time(const struct moment *m,
         params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
         params.pull = (struct kiln_value){.constant = 0.0f};
     }
+    if (force->region.enabled)
+        fill_region(&params, m, &force->region);
     return params;
 }
 
