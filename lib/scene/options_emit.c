@@ -152,7 +152,13 @@ static const char *const aligns_in_flight[] = {
     NULL,
 };
 
-TABLE(death) = {COUNT, ALIGN(aligns_in_flight, TO_VELOCITY), END};
+TABLE(death) = {
+    COUNT,
+    ALIGN(aligns_in_flight, TO_VELOCITY),
+    BOOLEAN(IF_IMPACTS_COUNT, "impact", parent.impact, "false",
+            "A death at an impact counts as well (`collide.then`)."),
+    END,
+};
 
 TABLE(bounce) = {
     COUNT,
@@ -175,7 +181,8 @@ KINDS(events) = {
      MEMBERS(death),
      .shortcut = "count",
      .help = "Particles are born when a particle of the parent reaches the end of its life. A "
-             "death by bounds, by a demitter or at an impact does not count."},
+             "death by bounds or by a demitter does not count, nor one at an impact without "
+             "`impact`."},
     {.name = "bounce",
      .value = KILN_EVENT_BOUNCE,
      MEMBERS(bounce),
@@ -231,6 +238,13 @@ static const char *const collide_modes[] = {
     NULL,
 };
 
+static const char *const thens[] = {
+    [KILN_THEN_BOUNCE] = "bounce",
+    [KILN_THEN_DIE] = "die",
+    [KILN_THEN_STOP] = "stop",
+    NULL,
+};
+
 TABLE(collide_options) = {
     CHOICE(
         MOTION, "mode", mode, collide_modes, "swept",
@@ -250,7 +264,16 @@ TABLE(collide_options) = {
     VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, LIFE(19), "0",
           "Coulomb's coefficient of friction. An impact reduces the speed along the surface by at "
           "most this factor times the change of the speed towards the surface."),
-    BOOLEAN(MOTION, "dies", dies, "false", "A particle ends at its first impact, like rain."),
+    BOOLEAN(MOTION, "dies", dies, "false",
+            "A particle ends at its first impact, like rain: another way to write `then: die`."),
+    CHOICE(
+        IF_STOPS, "then", then, thens, "bounce",
+        "What an impact does. `bounce` lets a particle bounce. `die` ends it. `stop` lets it rest "
+        "where it hit, without forces, until its life ends; it stays there also if the object "
+        "moves on."),
+    VALUE(IF_NOT_CERTAIN, "chance", chance, KILN_FRACTION, 0, 1, LIFE(99), "1",
+          "Chance of the first impact in a step to do what `then` says. Otherwise the particle "
+          "bounces."),
     END,
 };
 

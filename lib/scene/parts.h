@@ -31,6 +31,14 @@ unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop
  * scenes keep their hash. */
 unsigned kiln_row_if_region(const void *scene, const void *force);
 
+/* Return the bits of all parts if impacts stop particles, or if what they do is not certain, and
+ * otherwise 0. */
+unsigned kiln_row_if_stops(const void *scene, const void *collide);
+unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
+
+/* Returns the bits of all parts if deaths of parents at impacts count, and otherwise 0. */
+unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
+
 /* Returns the bits of all parts if a system's seed is not its place, and otherwise 0. */
 unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 
@@ -43,5 +51,8 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 #define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned
 #define IF_REGION                kiln_row_if_region
+#define IF_STOPS                 kiln_row_if_stops
+#define IF_IMPACTS_COUNT         kiln_row_if_impacts_count
+#define IF_NOT_CERTAIN           kiln_row_if_not_certain
 
 #endif

@@ -307,6 +307,25 @@ static bool check_regions(struct kiln_reader *reader, const struct kiln_node *ro
     return true;
 }
 
+/* Settles what impacts do, which has two keys: `dies` is that of older scenes. */
+static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *root,
+                           struct kiln_system *system)
+{
+    struct kiln_collide *collide = &system->collide;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.collide.then", system->name);
+    if (collide->dies && collide->then == KILN_THEN_STOP)
+        return kiln_reader_error_at(reader, root, path, "must not be stop where `dies` is true");
+    if (collide->enabled && collide->then == KILN_THEN_STOP && system->interaction_count > 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must not be stop where particles interact, since nothing "
+                                    "pushes a particle that has stopped");
+    collide->dies |= collide->then == KILN_THEN_DIE;
+    if (collide->dies)
+        collide->then = KILN_THEN_DIE;
+    return true;
+}
+
 /* Checks a system's interactions. Two of a kind are refused, since each would be computed from the
  * state before the other. */
 static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
@@ -395,8 +414,9 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !kiln_motion_layout_settle(reader, root, system) ||
-            !check_regions(reader, root, system) || !check_interactions(reader, root, system) ||
-            !check_distances(reader, root, i) || !kiln_particle_mesh_settle(reader, root, system))
+            !check_regions(reader, root, system) || !settle_impacts(reader, root, system) ||
+            !check_interactions(reader, root, system) || !check_distances(reader, root, i) ||
+            !kiln_particle_mesh_settle(reader, root, system))
             return false;
         if (!system->bounds.enabled)
             system->bounds = scene->bounds;

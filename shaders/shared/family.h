@@ -62,7 +62,8 @@ FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
         e.happens = (what & TRACE_BOUNCE) != 0u;
     } else {
         e.since = t.end.w;
-        e.happens = (what & TRACE_DEATH) != 0u;
+        uint deaths = STEP(family.impacts) != 0u ? TRACE_DEATH | TRACE_FATAL : TRACE_DEATH;
+        e.happens = (what & deaths) != 0u;
     }
     return e;
 }

@@ -119,17 +119,23 @@ struct kiln_force_params {
 #define ALIGN_VELOCITY 1u
 #define ALIGN_NORMAL   2u
 
+/* What an impact does to a particle. */
+#define THEN_BOUNCE 0u
+#define THEN_DIE    1u
+#define THEN_STOP   2u
+
 /* How a system is related to others: see family.h. */
 struct kiln_family_params {
     uint born_of;
     uint align;
-    uint slots;         /* slots reserved for the children of one parent */
-    uint parent_traces; /* index of the parent system's first trace */
-    uint traced;        /* 1: the system has children or paint, so it leaves traces */
-    uint traces;        /* index of its own first trace */
-    uint dies;          /* 1: particles die at their first impact */
-    uint unused;
-    S(kiln_value) rate; /* trail: children a second of the parent's life */
+    uint slots;           /* slots reserved for the children of one parent */
+    uint parent_traces;   /* index of the parent system's first trace */
+    uint traced;          /* 1: the system has children or paint, so it leaves traces */
+    uint traces;          /* index of its own first trace */
+    uint then;            /* THEN_* */
+    uint impacts;         /* 1: a parent's death at an impact counts as a death */
+    S(kiln_value) rate;   /* trail: children a second of the parent's life */
+    S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };
 
 struct kiln_step_params {

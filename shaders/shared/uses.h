@@ -30,6 +30,7 @@
 #define KEYED_FORCE_PULL      16u
 #define KEYED_FORCE_QUADRATIC 17u
 #define KEYED_FORCE_SCALE     18u
+#define KEYED_CHANCE          19u
 
 /* The bit of USES_FORCES that says whether any force acts in a region alone. */
 #define FORCE_IN_REGION 31u

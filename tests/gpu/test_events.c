@@ -1,5 +1,5 @@
 /* Checks that each technique of the stage `simulate` computes the same bits as `cpu` for what
- * happens to particles: repeated bursts, and forces that act in regions. If this fails,
+ * happens to particles: repeated bursts, forces that act in regions, and impacts. If this fails,
  * GLSL has another region or another birth than C. */
 #include "support/agree.h"
 #include "support/cmocka.h"
@@ -50,6 +50,51 @@ static const char PLAIN[] =
     "      - gravity: {region: {box: {size: [2, 2, 1]}, falloff: 0.4 m}}\n"
     "      - drag: {strength: 3, region: {sphere: {radius: 1.2}, falloff: 1.2 m}}\n";
 
+/* Drops that stop, die or bounce on a floor and on a box that moves. They give birth to others
+ * where they hit, along their ways and where they end, also after they have stopped. */
+static const char IMPACTS[] =
+    "kiln: 1\n"
+    "seed: 5\n"
+    "output: {frames: 60}\n"
+    "backdrop:\n"
+    "  floor: {height: 0 m}\n"
+    "  objects:\n"
+    "    - box: {center: {keys: {0 s: [0, 0.5, 0], 1 s: [0.5, 0.5, 0]}}, size: [1, 0.5, 1],\n"
+    "            collide: true}\n"
+    "systems:\n"
+    "  stopping:\n"
+    "    emit: {rate: 900, life: [0.4 s, 1.2 s], speed: [1, 3], from: {box: {origin: [0, 1.2, 0],\n"
+    "           size: [3, 0.2, 3], angle: 180 deg}}}\n"
+    "    forces: [gravity: {}, curl: {}]\n"
+    "    collide: {then: stop, chance: {random: [0.2, 1], times: {life: [1, 0.5]}}}\n"
+    "    bounds: {min: [-1.2, -1, -3], max: [3, 3, 3]}\n"
+    "  plain:\n"
+    "    emit: {rate: 500, life: 1 s, speed: 3, from: {point: {origin: [0, 1, 0], angle: 90 deg,\n"
+    "           direction: [0, -1, 0]}}}\n"
+    "    collide: {then: stop, mode: clamp}\n"
+    "  dying:\n"
+    "    emit: {rate: 500, life: 1 s, speed: 3, from: {point: {origin: [0, 1, 0], angle: 90 deg,\n"
+    "           direction: [0, -1, 0]}}}\n"
+    "    collide: {then: die, chance: 0.5, slowdown: 0.9}\n"
+    "  shard:\n"
+    "    emit: {parent: {system: dying, on: {death: {count: 3, impact: true}}}, life: 0.3 s}\n"
+    "  splash:\n"
+    "    emit: {parent: {system: stopping, on: {bounce: {count: 2, align: normal}}}, life: 0.2 s}\n"
+    "  trail:\n"
+    "    emit: {parent: {system: stopping, on: {trail: 10}}, life: 0.2 s}\n"
+    "  end:\n"
+    "    emit: {parent: {system: stopping, on: {death: 2}}, life: 0.2 s}\n";
+
+static void impacts_agree(void **state)
+{
+    simulation_agree(*state, IMPACTS, NULL, STEPS);
+}
+
+static void impacts_agree_in_stages(void **state)
+{
+    simulation_agree(*state, IMPACTS, "simulation.integration=rk4", STEPS / 3);
+}
+
 static void regions_agree(void **state)
 {
     simulation_agree(*state, REGIONS, NULL, STEPS);
@@ -68,9 +113,9 @@ static void plain_forces_agree(void **state)
 int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(regions_agree),
-        test_on_device(regions_agree_in_stages),
-        test_on_device(plain_forces_agree),
+        test_on_device(regions_agree),           test_on_device(regions_agree_in_stages),
+        test_on_device(plain_forces_agree),      test_on_device(impacts_agree),
+        test_on_device(impacts_agree_in_stages),
     };
     struct test_list list = {.count = 0};
     test_list_add(&list, tests, sizeof tests / sizeof *tests);

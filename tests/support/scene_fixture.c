@@ -75,6 +75,7 @@ struct kiln_system *fixture_add_system(struct scene_fixture *f, const char *name
     system->emit.speed = fixture_range(1.0f, 2.0f);
     system->emit.direction = fixture_constant3(0.0f, 1.0f, 0.0f);
     system->collide.slowdown = system->collide.restitution = fixture_constant(1.0f);
+    system->collide.chance = fixture_constant(1.0f);
     return system;
 }
 

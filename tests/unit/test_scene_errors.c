@@ -171,6 +171,13 @@ static const struct bad types[] = {
      ":2:30: systems.a.emit.bursts: the step at 0.5 s has more than 64 bursts: let them be less "
      "frequent"},
     {"kiln: 1\n"
+     "systems: {a: {collide: {dies: true, then: stop}}}\n",
+     ":2:43: systems.a.collide.then: must not be stop where `dies` is true"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: stop}, interact: [collide: {}]}}\n",
+     ":2:31: systems.a.collide.then: must not be stop where particles interact, since nothing "
+     "pushes a particle that has stopped"},
+    {"kiln: 1\n"
      "systems: {a: {forces: [drag: {region: {falloff: 1 m}}]}}\n",
      ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`"},
     {"kiln: 1\n"

@@ -85,6 +85,7 @@ static void values_with_keys_are_known(void **state)
         {"systems.a.collide={slowdown: {life: [0, 1]}}", BIT(KEYED_SLOWDOWN)},
         {"systems.a.collide={restitution: {life: [0, 1]}}", BIT(KEYED_RESTITUTION)},
         {"systems.a.collide={friction: {life: [0, 1]}}", BIT(KEYED_FRICTION)},
+        {"systems.a.collide={chance: {life: [0, 1]}}", BIT(KEYED_CHANCE)},
         {"systems.a.forces=[gravity: {life: [[0, 1, 0], [0, 2, 0]]}]", BIT(KEYED_FORCE_VECTOR)},
         {"systems.a.forces=[curl: {strength: " OVER_LIFE "}]", BIT(KEYED_FORCE_STRENGTH)},
         {"systems.a.forces=[curl: {pull: " OVER_LIFE "}]", BIT(KEYED_FORCE_PULL)},

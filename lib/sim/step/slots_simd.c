@@ -331,6 +331,26 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *
     b->velocity = s->moving;
 }
 
+/* Returns whether lane i has a particle that an impact has stopped. */
+static inline uint32_t rests_at(const struct kiln_sim *sim, const struct kiln_block *b, uint32_t i)
+{
+    return sim->step->family.then == THEN_STOP &&
+           (b->lanes.words[7][i] & KILN_PARTICLE_STOPPED) != 0;
+}
+
+/* Puts particles that an impact has stopped back to where they are, as step_rest does. */
+static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b)
+{
+    if (sim->step->family.then != THEN_STOP)
+        return;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        if (!rests_at(sim, b, i))
+            continue;
+        kiln_set3(&b->position, i, particle_position(record_at(b, i)));
+        kiln_set3(&b->velocity, i, particle_velocity(record_at(b, i)));
+    }
+}
+
 static inline void find_lost(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const struct kiln_step_params *step = sim->step;
@@ -360,7 +380,8 @@ static inline void find_alone(const struct kiln_sim *sim, struct kiln_block *b)
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         const uint32_t alive = particle_is_alive(record_at(b, i));
         const uint32_t ends = b->lanes.age_s[i] >= b->lanes.life_s[i];
-        const uint32_t touches = b->alone[i] & (0u - (alive & (1u ^ ends)));
+        const uint32_t flies = 1u ^ rests_at(sim, b, i);
+        const uint32_t touches = b->alone[i] & (0u - (alive & (1u ^ ends) & flies));
         const uint32_t leaves = (alive & ends & traced) ? ALONE_LEAVES : touches;
         b->alone[i] = b->born[i] ? ALONE_BORN : leaves;
     }
@@ -468,6 +489,7 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     else
         fly(sim, b);
     push_on(sim, b, first_slot);
+    stay_at_rest(sim, b);
     find_lost(sim, b);
     find_alone(sim, b);
     move(b);

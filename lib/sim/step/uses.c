@@ -51,6 +51,7 @@ static void add_impacts(struct uses *uses, const float4 *keys, const struct kiln
     add_curve(uses, KEYED_SLOWDOWN, kiln_value_uses(keys, &collide->slowdown));
     add_curve(uses, KEYED_RESTITUTION, kiln_value_uses(keys, &collide->restitution));
     add_curve(uses, KEYED_FRICTION, kiln_value_uses(keys, &collide->friction));
+    add_curve(uses, KEYED_CHANCE, kiln_value_uses(keys, &collide->chance));
 }
 
 static void add_force(struct uses *uses, const float4 *keys, const struct kiln_force *force)
