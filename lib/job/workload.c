@@ -75,6 +75,7 @@ static void find_births(const struct kiln_workload *w, const struct kiln_system 
 {
     const struct kiln_emitter *emit = &system->emit;
     const struct kiln_parent *parent = &emit->parent;
+    const double count = 0.5 * ((double)parent->count[0] + parent->count[1]);
     for (uint32_t i = 0; i < w->count; i++) {
         if (!parent->enabled) {
             const float rate = kiln_scene_value(w->scene, &emit->rate, (float)time_of(w, i));
@@ -87,9 +88,9 @@ static void find_births(const struct kiln_workload *w, const struct kiln_system 
             births[i] = of_parent->living[i] * w->length_s *
                         (double)kiln_scene_value_max(w->scene, &parent->rate);
         else if (parent->event == KILN_EVENT_DEATH)
-            births[i] = deaths * parent->count;
+            births[i] = deaths * count;
         else /* taken for one bounce of each, at some time of its life */
-            births[i] = of_parent->births[i] * parent->count;
+            births[i] = of_parent->births[i] * count;
     }
     if (!parent->enabled)
         add_bursts(w, emit, births);

@@ -139,8 +139,12 @@ static const char *const aligns[] = {
 
 /* With 65536 children each, the children of 512 particles fit into KILN_MAX_PARTICLES slots. */
 #define COUNT                                                                                      \
-    INTEGER(MOTION, "count", parent.count, 1, 65536, "10",                                         \
-            "Number of particles born at the event of one particle of the parent.")
+    {                                                                                              \
+        ROW(MOTION, "count", counts, parent.count, "10",                                           \
+            "Number of particles born at the event of one particle of the parent. Of two "         \
+            "numbers, each particle of the parent draws its own between them."),                   \
+            LIMITS(KILN_PLAIN, 1, 65536)                                                           \
+    }
 #define ALIGN(words, help_of_others)                                                               \
     CHOICE(MOTION, "align", parent.align, words, "world",                                          \
            "Direction of the y axis of `from`. `world` points it up. " help_of_others)

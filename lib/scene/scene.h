@@ -70,7 +70,7 @@ struct kiln_parent {
     uint32_t system; /* index of that system */
     enum kiln_event event;
     enum kiln_align align;
-    uint32_t count;         /* death, bounce: number of children of one parent */
+    uint32_t count[2];      /* death, bounce: the fewest and the most children of one parent */
     bool impact;            /* death: a death at an impact counts as well */
     struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
     uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */

@@ -128,12 +128,14 @@ struct kiln_force_params {
 struct kiln_family_params {
     uint born_of;
     uint align;
-    uint slots;           /* slots reserved for the children of one parent */
-    uint parent_traces;   /* index of the parent system's first trace */
-    uint traced;          /* 1: the system has children or paint, so it leaves traces */
-    uint traces;          /* index of its own first trace */
-    uint then;            /* THEN_* */
-    uint impacts;         /* 1: a parent's death at an impact counts as a death */
+    uint slots;         /* slots reserved for the children of one parent */
+    uint parent_traces; /* index of the parent system's first trace */
+    uint traced;        /* 1: the system has children or paint, so it leaves traces */
+    uint traces;        /* index of its own first trace */
+    uint then;          /* THEN_* */
+    uint impacts;       /* 1: a parent's death at an impact counts as a death */
+    uint fewest, most;  /* death, bounce: children of a parent, drawn between the two */
+    uint unused0, unused1;
     S(kiln_value) rate;   /* trail: children a second of the parent's life */
     S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };

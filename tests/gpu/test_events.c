@@ -79,11 +79,12 @@ static const char IMPACTS[] =
     "  shard:\n"
     "    emit: {parent: {system: dying, on: {death: {count: 3, impact: true}}}, life: 0.3 s}\n"
     "  splash:\n"
-    "    emit: {parent: {system: stopping, on: {bounce: {count: 2, align: normal}}}, life: 0.2 s}\n"
+    "    emit: {parent: {system: stopping, on: {bounce: {count: [1, 3], align: normal}}}, life: "
+    "0.2 s}\n"
     "  trail:\n"
     "    emit: {parent: {system: stopping, on: {trail: 10}}, life: 0.2 s}\n"
     "  end:\n"
-    "    emit: {parent: {system: stopping, on: {death: 2}}, life: 0.2 s}\n";
+    "    emit: {parent: {system: stopping, on: {death: [1, 4]}}, life: 0.2 s}\n";
 
 static void impacts_agree(void **state)
 {

@@ -220,7 +220,7 @@ struct kiln_system *fixture_add_child(struct scene_fixture *f, const char *name,
                                                .name = f->scene.systems[parent].name,
                                                .system = parent,
                                                .event = event,
-                                               .count = count};
+                                               .count = {count, count}};
     return system;
 }
 

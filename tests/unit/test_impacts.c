@@ -148,11 +148,36 @@ static void deaths_at_impacts_may_count(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* Each parent draws how many children it has; a second system draws others. */
+static void numbers_of_children_are_drawn(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene;
+    uint32_t seen[4] = {0};
+    struct simulation run = start("systems.b.emit.parent.on={death: [2, 5]}", &scene);
+    simulation_run(&run, 100);
+    const struct kiln_particle *children = simulation_records(&run) + COUNT;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        uint32_t count = 0;
+        while (count < 5 && particle_is_alive(children[i * 5 + count]))
+            count++;
+        for (uint32_t k = count; k < 5; k++)
+            assert_false(particle_is_alive(children[i * 5 + k]));
+        assert_in_range(count, 2, 5);
+        seen[count - 2]++;
+    }
+    for (int i = 0; i < 4; i++)
+        assert_in_range(seen[i], 225 - 50, 225 + 50); /* four standard deviations are 52 */
+    simulation_end(&run);
+    kiln_scene_destroy(&scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(they_stop_where_they_hit),
         cmocka_unit_test(a_chance_is_that_of_an_impact),
+        cmocka_unit_test(numbers_of_children_are_drawn),
         cmocka_unit_test(deaths_at_impacts_may_count),
         cmocka_unit_test(dies_is_another_way_to_write_it),
     };

@@ -26,7 +26,7 @@ static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
 static_assert(offsetof(struct kiln_step_params, family) == 8976, "std140");
-static_assert(sizeof(struct kiln_step_params) == 9040, "std140");
+static_assert(sizeof(struct kiln_step_params) == 9056, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -194,6 +194,8 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
             family->align = (uint)parent->align;
             family->slots = parent->slots;
             family->rate = parent->rate;
+            family->fewest = parent->count[0];
+            family->most = parent->count[1];
             family->impacts = parent->impact;
             family->parent_traces = params->systems[parent->system].family.traces;
         }
