@@ -53,14 +53,14 @@ static bool check_particle(const struct kiln_particle *p, const struct kiln_pool
 {
     const uint4 place = p->position_serial, speed = p->velocity_birth;
     const uint32_t born = particle_birth_step(*p), serial = place.w;
-    const uint32_t unused =
-        (1u << KILN_BIRTH_FRACTION_SHIFT) - 1u - (KILN_PARTICLE_ALIVE | KILN_PARTICLE_BOUNCED);
+    const uint32_t flags = KILN_PARTICLE_ALIVE | KILN_PARTICLE_BOUNCED | KILN_PARTICLE_STOPPED;
+    const uint32_t unused = (1u << KILN_BIRTH_FRACTION_SHIFT) - 1u - flags;
     const float most = BITS_FLOAT(STEP_ABSURD_BITS);
     if (!particle_is_alive(*p)) {
         if ((place.x | place.y | place.z | place.w | speed.x | speed.y | speed.z | speed.w) != 0)
             FAULT(fault, "found a dead particle that is not empty");
     } else if ((speed.w & unused) != 0) {
-        FAULT(fault, "found the flags %u, expected 1 or 3", speed.w & 15u);
+        FAULT(fault, "found the flags %u, expected 1, 3, 5 or 7", speed.w & 15u);
     } else if (born == 0 || born > step) {
         FAULT(fault, "step of birth: found %u, expected 1 to %u", born, step);
     } else if (serial >= system->next_serial || serial % system->capacity != slot) {

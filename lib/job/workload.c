@@ -42,16 +42,30 @@ static double time_of(const struct kiln_workload *w, uint32_t slot)
 
 /* ---- births and lives ------------------------------------------------------------------------ */
 
+/* Returns the number of a burst's repetitions before a clip time, without their delays. */
+static double repetitions_before(const struct kiln_burst *burst, double time_s)
+{
+    const double passed = ceil((time_s - burst->time_s) / burst->every_s);
+    return fmin(fmax(passed, 0.0), burst->most);
+}
+
 static void add_bursts(const struct kiln_workload *w, const struct kiln_emitter *emit,
                        double *births)
 {
     for (uint32_t i = 0; i < emit->burst_count; i++) {
-        const double time_s = emit->bursts[i].time_s;
+        const struct kiln_burst *burst = &emit->bursts[i];
+        const double count = 0.5 * ((double)burst->count[0] + burst->count[1]);
+        for (uint32_t k = 0; k < w->count && burst->every_s > 0.0; k++)
+            births[k] += count * (repetitions_before(burst, w->start_s + (k + 1) * w->length_s) -
+                                  repetitions_before(burst, w->start_s + k * w->length_s));
+        if (burst->every_s > 0.0)
+            continue;
+        const double time_s = burst->time_s + 0.5 * burst->jitter_s;
         const double slot = floor((time_s - w->start_s) / w->length_s);
         if (slot >= w->count || slot < 0.0)
             continue;
         /* The frame at 0 s shows bursts at its very time; other frames show earlier ones. */
-        births[(uint32_t)slot - (time_s == 0.0 && slot > 0.0)] += emit->bursts[i].count;
+        births[(uint32_t)slot - (time_s == 0.0 && slot > 0.0)] += count;
     }
 }
 
@@ -61,6 +75,7 @@ static void find_births(const struct kiln_workload *w, const struct kiln_system 
 {
     const struct kiln_emitter *emit = &system->emit;
     const struct kiln_parent *parent = &emit->parent;
+    const double count = 0.5 * ((double)parent->count[0] + parent->count[1]);
     for (uint32_t i = 0; i < w->count; i++) {
         if (!parent->enabled) {
             const float rate = kiln_scene_value(w->scene, &emit->rate, (float)time_of(w, i));
@@ -73,9 +88,9 @@ static void find_births(const struct kiln_workload *w, const struct kiln_system 
             births[i] = of_parent->living[i] * w->length_s *
                         (double)kiln_scene_value_max(w->scene, &parent->rate);
         else if (parent->event == KILN_EVENT_DEATH)
-            births[i] = deaths * parent->count;
+            births[i] = deaths * count;
         else /* taken for one bounce of each, at some time of its life */
-            births[i] = of_parent->births[i] * parent->count;
+            births[i] = of_parent->births[i] * count;
     }
     if (!parent->enabled)
         add_bursts(w, emit, births);

@@ -117,10 +117,10 @@ static void visit_rows(struct walk *walk, const char *prefix, const struct kiln_
         kiln_text_add(&path, "%s%s%s", prefix, *prefix ? "." : "", row->name);
         if (!path.failed)
             visit_row(walk, path.data, row);
-        const struct kiln_option *item = row->type == &kiln_type_list ? row->item : row;
+        const struct kiln_option *item = row->item ? row->item : row;
         if (row->type == &kiln_type_map)
             kiln_text_add(&path, ".NAME");
-        else if (row->type == &kiln_type_list)
+        else if (row->item)
             kiln_text_add(&path, ".N");
         if (item->members && !path.failed)
             visit_rows(walk, path.data, item->members);

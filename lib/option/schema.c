@@ -29,7 +29,8 @@ void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out)
                   min, max);
     struct kiln_text pattern = {0};
     if (option->parts && *units)
-        kiln_text_add(&pattern, "^(" NUMBER_PATTERN "%s)$|" NAMED_PATTERN, units);
+        kiln_text_add(&pattern, "^(" NUMBER_PATTERN "(%s%s))$|" NAMED_PATTERN, units,
+                      option->is_of_clip ? "| *%" : "");
     else if (option->parts)
         kiln_text_add(&pattern, NAMED_PATTERN);
     else

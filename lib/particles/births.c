@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "shared/random.h"
+
 __extension__ typedef unsigned __int128 wide;
 
 static uint64_t rate_fixed(float rate)
@@ -46,16 +48,61 @@ static void add_rate(const struct kiln_births_source *source, uint32_t step, uin
     *wait = (uint64_t)((*wait + count * units_per_birth - rate_units) % units_per_birth);
 }
 
+/* Returns the number of particles of a repetition. purpose: its first random number. */
+static uint32_t count_of(const struct kiln_burst *burst, uint32_t stream, uint32_t purpose)
+{
+    const uint64_t choices = (uint64_t)burst->count[1] - burst->count[0] + 1;
+    return burst->count[0] + (uint32_t)(random_bits(stream, purpose) * choices >> 32);
+}
+
+/* Adds repetition k of burst number i, if it happens in the step. */
+static void add_burst(const struct kiln_births_source *source, uint32_t i, uint32_t k,
+                      uint32_t step, struct kiln_births *births)
+{
+    const struct kiln_burst *burst = &source->bursts[i];
+    const uint32_t stream = random_stream(source->random_key, i);
+    const uint32_t purpose = RANDOM_BURST + 2 * k;
+    double time_s = burst->time_s + k * burst->every_s;
+    time_s += burst->jitter_s * (double)random_unit(stream, purpose + 1);
+    double steps = time_s * source->steps_num / source->steps_den + (double)source->warmup_steps;
+    double parts = floor(steps * 64.0 + 0.5);
+    double start = ((double)step - 1.0) * 64.0;
+    if (!(parts >= start && parts < start + 64.0))
+        return;
+    if (births->group_count - (births->of_rate > 0) == KILN_MAX_BURSTS)
+        births->left_out = true;
+    else
+        add_group(births, count_of(burst, stream, purpose), (uint32_t)(parts - start) << 26, 0);
+}
+
+/* Adds the repetitions of burst number i that happen in the step. Looks at all that may: a little
+ * more than those whose times without delay lie between the step and the longest delay before
+ * it. */
+static void add_repetitions(const struct kiln_births_source *source, uint32_t i, uint32_t step,
+                            struct kiln_births *births)
+{
+    const struct kiln_burst *burst = &source->bursts[i];
+    const double step_s = (double)source->steps_den / source->steps_num;
+    const double start_s = ((double)step - 1.0 - (double)source->warmup_steps) * step_s;
+    const double margin_s = step_s / 64.0;
+    const double first = (start_s - margin_s - burst->jitter_s - burst->time_s) / burst->every_s;
+    const double last = (start_s + step_s + margin_s - burst->time_s) / burst->every_s;
+    const double from = fmax(ceil(first) - 1.0, 0.0);
+    const double to = fmin(floor(last) + 1.0, (double)burst->most - 1.0);
+    if (!(from <= to))
+        return;
+    for (uint32_t k = (uint32_t)from; k <= (uint32_t)to; k++)
+        add_burst(source, i, k, step, births);
+}
+
 static void add_bursts(const struct kiln_births_source *source, uint32_t step,
                        struct kiln_births *births)
 {
     for (uint32_t i = 0; i < source->burst_count; i++) {
-        double steps = source->bursts[i].time_s * source->steps_num / source->steps_den +
-                       (double)source->warmup_steps;
-        double parts = floor(steps * 64.0 + 0.5);
-        double start = ((double)step - 1.0) * 64.0;
-        if (parts >= start && parts < start + 64.0)
-            add_group(births, source->bursts[i].count, (uint32_t)(parts - start) << 26, 0);
+        if (source->bursts[i].every_s > 0.0)
+            add_repetitions(source, i, step, births);
+        else
+            add_burst(source, i, 0, step, births);
     }
 }
 
@@ -63,6 +110,8 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
                       struct kiln_births *births)
 {
     births->count = 0;
+    births->of_rate = 0;
+    births->left_out = false;
     births->group_count = 0;
     add_rate(source, step, wait, births);
     births->of_rate = births->count;
@@ -85,13 +134,15 @@ struct kiln_births_bound kiln_births_bound(const struct kiln_births_source *sour
                                            uint32_t lifespan)
 {
     uint64_t window = (uint64_t)lifespan + 1;
-    struct kiln_births_bound bound = {0, 0};
+    struct kiln_births_bound bound = {.capacity = 0};
     uint64_t inside = 0, lead_wait = 0, trail_wait = 0;
     struct kiln_births births;
     for (uint32_t step = 1; step <= steps; step++) {
         kiln_births_step(source, step, &lead_wait, &births);
         bound.total += births.count;
         inside += births.count;
+        if (births.left_out && bound.crowded == 0)
+            bound.crowded = step;
         if (step > window) {
             kiln_births_step(source, (uint32_t)(step - window), &trail_wait, &births);
             inside -= births.count;

@@ -10,10 +10,14 @@
 
 #include "shared/layout.h"
 
-/* A number of particles that are born at one time. */
+/* Particles that are born at one time, or again and again. Each repetition draws its number of
+ * particles, uniformly, and its delay from the key of the source. */
 struct kiln_burst {
-    double time_s; /* clip time */
-    uint32_t count;
+    double time_s;     /* clip time of the first one */
+    uint32_t count[2]; /* the fewest and the most particles of a repetition */
+    double every_s;    /* from one repetition to the next; 0: the burst is not repeated */
+    uint32_t most;     /* the most repetitions, the first one included, if it is repeated */
+    double jitter_s;   /* each is up to this later; at most every_s if the burst is repeated */
 };
 
 /* Holds everything that determines the births of a system. Step k = 1, 2, ... lasts from (k - 1 -
@@ -22,17 +26,19 @@ struct kiln_births_source {
     /* returns the particles born a second, at a clip time */
     float (*rate)(const void *context, float time_s);
     const void *context;
-    const struct kiln_burst *bursts; /* ascending in time */
-    uint32_t burst_count;            /* below KILN_MAX_BIRTH_GROUPS */
-    uint32_t steps_num, steps_den;   /* steps a second, as a fraction; not zero */
+    const struct kiln_burst *bursts;
+    uint32_t burst_count;          /* at most KILN_MAX_BURSTS */
+    uint32_t random_key;           /* that of the system, by which bursts draw */
+    uint32_t steps_num, steps_den; /* steps a second, as a fraction; not zero */
     uint32_t warmup_steps;
 };
 
 /* Lists the births of one step in order of their serials: first the births of the rate, then those
- * of each burst. */
+ * of each burst and each of its repetitions in the step. */
 struct kiln_births {
     uint32_t count;
     uint32_t of_rate; /* births of the rate; if there are any, they are the first group */
+    bool left_out;    /* the step has more than KILN_MAX_BURSTS bursts; those beyond are left out */
     uint32_t group_count;
     struct kiln_birth_group groups[KILN_MAX_BIRTH_GROUPS];
 };
@@ -52,6 +58,7 @@ uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps);
 struct kiln_births_bound {
     uint64_t capacity; /* the most births in any lifespan + 1 consecutive steps */
     uint64_t total;    /* number of births of all steps */
+    uint32_t crowded;  /* the first step that has more than KILN_MAX_BURSTS bursts, or 0 */
 };
 
 /* Bounds the births of steps 1 to `steps`. If serial s takes slot s mod capacity, `capacity` slots

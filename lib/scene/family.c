@@ -71,7 +71,7 @@ static double most_of_a_life(const struct kiln_scene *scene, const struct kiln_v
 uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_parent *parent)
 {
     if (parent->event != KILN_EVENT_TRAIL)
-        return parent->count;
+        return parent->count[1];
     /* child j is born if the float sum * life, which rises with the life, passes j */
     double sum = most_of_a_life(scene, &parent->rate);
     double most = sum * (double)longest_life_s(scene, parent->system) * (1 + 0x1p-20);

@@ -3,6 +3,8 @@
 #ifndef KILN_SCENE_FORCE_H
 #define KILN_SCENE_FORCE_H
 
+#include <stdbool.h>
+
 #include "shared/layout.h"
 
 enum kiln_force_kind {
@@ -32,6 +34,17 @@ enum kiln_vortex_profile {
 enum kiln_wind_mode {
     KILN_WIND_PULL, /* (air - velocity) * pull, as an acceleration */
     KILN_WIND_ADD,  /* the air's velocity is added in each step (UberFlow 2004, 4.2); no pull */
+};
+
+/* Where a force acts: in a box or in a ball. All vary over time alone. */
+struct kiln_force_region {
+    bool enabled;                  /* false: everywhere */
+    bool box, sphere;              /* one of them, where it is enabled */
+    struct kiln_value3 box_center; /* m */
+    struct kiln_value3 box_size;   /* m: full edges */
+    struct kiln_value3 ball_center;
+    struct kiln_value radius;  /* m: of the ball */
+    struct kiln_value falloff; /* m: over which the force fades, inside of the border */
 };
 
 /* The options of all kinds of force; a kind uses some. In a union, the first member is the name
@@ -71,7 +84,8 @@ struct kiln_force {
         enum kiln_vortex_profile profile;
     };
     enum kiln_wind_mode mode; /* how moving air acts */
-    const char *file;         /* field: an absolute path (asset/geometry/grid_in.h) */
+    struct kiln_force_region region;
+    const char *file; /* field: an absolute path (asset/geometry/grid_in.h) */
 };
 
 #endif

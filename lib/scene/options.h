@@ -33,7 +33,8 @@ extern const struct kiln_option_type kiln_type_mesh;         /* a mesh's path */
 extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
 extern const struct kiln_option_type kiln_type_name;         /* a system's name */
-extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100} */
+extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a list */
+extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] */
 extern const struct kiln_option_type kiln_type_duration;     /* 5 s, or none */
 
 /* The C types of their fields (option/option.h). */
@@ -46,6 +47,7 @@ typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
 typedef const char *kiln_fills_name;
 typedef struct kiln_burst kiln_fills_bursts[];
+typedef uint32_t kiln_fills_counts[2];
 typedef struct kiln_scene kiln_fills_duration; /* its frames */
 
 /* Returns the origin of a scene's text: a file of that name. */

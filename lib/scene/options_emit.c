@@ -4,6 +4,31 @@
  * the macros of the rows; FILLS is the struct that the next tables fill. */
 #include "scene/rows.h"
 
+#define FILLS struct kiln_burst
+
+TABLE(burst_options) = {
+    {ROW(MOTION, "at", number, time_s, "0 s", "Clip time of the burst."),
+     LIMITS(KILN_SECONDS, -100000, 1000000), .is_of_clip = true},
+    {ROW(MOTION, "count", counts, count, NULL,
+         "Number of particles. Of two numbers, each repetition draws its own between them."),
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES)},
+    {ROW(MOTION, "every", number, every_s, "0 s",
+         "The burst is repeated every so often, at least 1 ms apart. With 0 s it is not repeated."),
+     LIMITS(KILN_SECONDS, 0, 1000000)},
+    {ROW(MOTION, "most", integer, most, "none",
+         "The most repetitions, the first one included. With none, they go on to the end of the "
+         "clip."),
+     LIMITS(KILN_PLAIN, 1, 1000000), .special_word = "none"},
+    {ROW(MOTION, "jitter", number, jitter_s, "0 s",
+         "Each repetition comes later by a time that is drawn, of 0 s to this. At most `every`, if "
+         "the burst is repeated."),
+     LIMITS(KILN_SECONDS, 0, 1000000)},
+    END,
+};
+
+ITEM_OF_ROWS(burst, burst_options);
+
+#undef FILLS
 #define FILLS struct kiln_emitter
 
 /* Options that every shape has. `spread` is the default of `angle`. */
@@ -114,8 +139,12 @@ static const char *const aligns[] = {
 
 /* With 65536 children each, the children of 512 particles fit into KILN_MAX_PARTICLES slots. */
 #define COUNT                                                                                      \
-    INTEGER(MOTION, "count", parent.count, 1, 65536, "10",                                         \
-            "Number of particles born at the event of one particle of the parent.")
+    {                                                                                              \
+        ROW(MOTION, "count", counts, parent.count, "10",                                           \
+            "Number of particles born at the event of one particle of the parent. Of two "         \
+            "numbers, each particle of the parent draws its own between them."),                   \
+            LIMITS(KILN_PLAIN, 1, 65536)                                                           \
+    }
 #define ALIGN(words, help_of_others)                                                               \
     CHOICE(MOTION, "align", parent.align, words, "world",                                          \
            "Direction of the y axis of `from`. `world` points it up. " help_of_others)
@@ -127,7 +156,13 @@ static const char *const aligns_in_flight[] = {
     NULL,
 };
 
-TABLE(death) = {COUNT, ALIGN(aligns_in_flight, TO_VELOCITY), END};
+TABLE(death) = {
+    COUNT,
+    ALIGN(aligns_in_flight, TO_VELOCITY),
+    BOOLEAN(IF_IMPACTS_COUNT, "impact", parent.impact, "false",
+            "A death at an impact counts as well (`collide.then`)."),
+    END,
+};
 
 TABLE(bounce) = {
     COUNT,
@@ -150,7 +185,8 @@ KINDS(events) = {
      MEMBERS(death),
      .shortcut = "count",
      .help = "Particles are born when a particle of the parent reaches the end of its life. A "
-             "death by bounds, by a demitter or at an impact does not count."},
+             "death by bounds or by a demitter does not count, nor one at an impact without "
+             "`impact`."},
     {.name = "bounce",
      .value = KILN_EVENT_BOUNCE,
      MEMBERS(bounce),
@@ -180,10 +216,11 @@ TABLE(emit_options) = {
            "shape `from` then lies around the parent's particle."),
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
-         "Particles that are born at once: a map of clip times, in seconds, to their numbers. The "
-         "frame at 0 s shows those of 0 s, at age 0; another frame shows the bursts before its "
-         "time."),
-     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), COUNTED(bursts, burst_count)},
+         "Particles that are born at once: a map of clip times, in seconds, to their numbers, or a "
+         "list of bursts that may be repeated. The frame at 0 s shows those of 0 s, at age 0; "
+         "another frame shows the bursts before its time. A step has at most 64 bursts."),
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .item = &burst,
+     .item_size = sizeof(struct kiln_burst), COUNTED(bursts, burst_count)},
     RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, BIRTH(13), "1 s",
           "How long a particle lives. The value is drawn at its birth."),
     RANGE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, BIRTH(14), "1 m/s",
@@ -202,6 +239,13 @@ TABLE(emit_options) = {
 static const char *const collide_modes[] = {
     [KILN_COLLIDE_SWEPT] = "swept",
     [KILN_COLLIDE_CLAMP] = "clamp",
+    NULL,
+};
+
+static const char *const thens[] = {
+    [KILN_THEN_BOUNCE] = "bounce",
+    [KILN_THEN_DIE] = "die",
+    [KILN_THEN_STOP] = "stop",
     NULL,
 };
 
@@ -224,7 +268,16 @@ TABLE(collide_options) = {
     VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, LIFE(19), "0",
           "Coulomb's coefficient of friction. An impact reduces the speed along the surface by at "
           "most this factor times the change of the speed towards the surface."),
-    BOOLEAN(MOTION, "dies", dies, "false", "A particle ends at its first impact, like rain."),
+    BOOLEAN(MOTION, "dies", dies, "false",
+            "A particle ends at its first impact, like rain: another way to write `then: die`."),
+    CHOICE(
+        IF_STOPS, "then", then, thens, "bounce",
+        "What an impact does. `bounce` lets a particle bounce. `die` ends it. `stop` lets it rest "
+        "where it hit, without forces, until its life ends; it stays there also if the object "
+        "moves on."),
+    VALUE(IF_NOT_CERTAIN, "chance", chance, KILN_FRACTION, 0, 1, LIFE(99), "1",
+          "Chance of the first impact in a step to do what `then` says. Otherwise the particle "
+          "bounces."),
     END,
 };
 

@@ -4,12 +4,45 @@
  * scene/rows.h defines MOTION, TIME, LIFE and FAR. */
 #include "scene/rows.h"
 
+#define FILLS struct kiln_force_region
+
+TABLE(region_box) = {
+    VECTOR(MOTION, "center", box_center, KILN_METRES, -FAR, FAR, TIME(94), "[0, 0, 0]",
+           "Centre of the box."),
+    VECTOR(MOTION, "size", box_size, KILN_METRES, 0, FAR, TIME(95), "[1, 1, 1]",
+           "Lengths of the edges, which lie along the axes."),
+    END,
+};
+
+TABLE(region_sphere) = {
+    VECTOR(MOTION, "center", ball_center, KILN_METRES, -FAR, FAR, TIME(96), "[0, 0, 0]",
+           "Centre of the sphere."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME(97), "1 m", "Radius."),
+    END,
+};
+
+TABLE(region_options) = {
+    SWITCH(MOTION, "box", region_box, box, "none", "The region is a box."),
+    SWITCH(MOTION, "sphere", region_sphere, sphere, "none", "The region is a sphere."),
+    VALUE(MOTION, "falloff", falloff, KILN_METRES, 0, FAR, TIME(98), "0 m",
+          "Over so many metres inside of the border the force fades, by 3 t^2 - 2 t^3."),
+    END,
+};
+
+#undef FILLS
 #define FILLS struct kiln_force
+
+/* An option of all forces that are summed up. */
+#define REGION                                                                                     \
+    SWITCH_AT(IF_REGION, "region", region, region_options, region.enabled, "none",                 \
+              "Where the force acts: in a `box` or a `sphere`. Outside of it the force does "      \
+              "nothing.")
 
 TABLE(gravity) = {
     VECTOR(MOTION, "acceleration", acceleration, KILN_ACCELERATION, -10000, 10000, LIFE(46),
            "[0, -9.81, 0]",
            "Acceleration of the particles. It points upwards for gas that is lighter than air."),
+    REGION,
     END,
 };
 
@@ -19,6 +52,7 @@ TABLE(drag) = {
     VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, LIFE(48), "0",
           "Quadratic drag: the deceleration is `quadratic` times the square of the speed. Air "
           "slows all but the smallest and slowest particles this way."),
+    REGION,
     END,
 };
 
@@ -42,14 +76,15 @@ TABLE(wind) = {
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
+    REGION,
     END,
 };
 
 TABLE(curl) = {
     VALUE(MOTION, "strength", strength, KILN_SPEED, 0, 10000, LIFE(51), "1 m/s",
           "Typical velocity of the air in the eddies."),
-    VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, TIME(52), "1 m",
-          "Size of the largest eddies."),
+    VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, BIRTH(52), "1 m",
+          "Size of the largest eddies. At random, each particle has eddies of its own size."),
     VECTOR(MOTION, "drift", drift, KILN_SPEED, -10000, 10000, TIME(53), "[0, 0, 0]",
            "Velocity at which the whole pattern of eddies moves."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, LIFE(54), "1",
@@ -57,6 +92,7 @@ TABLE(curl) = {
           "the velocities is their acceleration."),
     INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Number of layers of ever smaller eddies."),
     MODE,
+    REGION,
     END,
 };
 
@@ -70,6 +106,7 @@ TABLE(grid) = {
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
+    REGION,
     END,
 };
 
@@ -90,11 +127,12 @@ TABLE(attract) = {
     CHOICE(MOTION, "falloff", falloff, falloffs, "inverse_square",
            "How the acceleration falls off with the distance: inverse_square like gravity, "
            "inverse, constant, or linear like a spring."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(59), "0.1 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, LIFE(59), "0.1 m",
           "Softening radius (Plummer): at the distance d, the acceleration is strength * d / (d^2 "
           "+ radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. The acceleration is 0 at the "
           "position itself. At a distance of three radii it is 15, 10 or 5 % less than without "
           "softening, for n of 3, 2 or 1."),
+    REGION,
     END,
 };
 
@@ -112,8 +150,8 @@ TABLE(vortex) = {
            "at the viewer."),
     VALUE(MOTION, "speed", speed, KILN_SPEED, -10000, 10000, LIFE(62), "1 m/s",
           "Speed of the air around the axis at the edge of the core, where it is fastest."),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME(63), "0.5 m",
-          "Radius of the core."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, LIFE(63), "0.5 m",
+          "Radius of the core. Over `height`, it widens or narrows along the axis of a whirlwind."),
     CHOICE(MOTION, "profile", profile, profiles, "rankine",
            "rankine: the core turns like a solid body, and the air outside of it is slower with "
            "the distance. lamb_oseen: the change from core to outside is smooth."),
@@ -127,6 +165,7 @@ TABLE(vortex) = {
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
+    REGION,
     END,
 };
 

@@ -96,3 +96,28 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system)
     const struct kiln_system *s = system;
     return s->seed != (uint32_t)(s - in->systems) ? BOTH : 0;
 }
+
+unsigned kiln_row_if_region(const void *scene, const void *force)
+{
+    (void)scene;
+    return ((const struct kiln_force *)force)->region.enabled ? BOTH : 0;
+}
+
+unsigned kiln_row_if_stops(const void *scene, const void *collide)
+{
+    (void)scene;
+    return ((const struct kiln_collide *)collide)->then == KILN_THEN_STOP ? BOTH : 0;
+}
+
+unsigned kiln_row_if_not_certain(const void *scene, const void *collide)
+{
+    (void)scene;
+    const struct kiln_value *chance = &((const struct kiln_collide *)collide)->chance;
+    return chance->count > 0 || chance->constant != 1.0f ? BOTH : 0;
+}
+
+unsigned kiln_row_if_impacts_count(const void *scene, const void *emit)
+{
+    (void)scene;
+    return ((const struct kiln_emitter *)emit)->parent.impact ? BOTH : 0;
+}

@@ -8,8 +8,9 @@
 enum kiln_scene_part {
     KILN_PART_MOTION = 1, /* options that decide the state of the particles */
     KILN_PART_VIEW = 2,   /* options that decide where the camera sees particles in each moment */
-    /* options of which the hash of the whole scene is taken: all but a seed of a system that is the
-     * one it would have anyway, so that scenes from before there were such seeds keep their hash */
+    /* options of which the hash of the whole scene is taken: all but those of later versions that
+     * have their default, such as a seed of a system that is the one it would have anyway, so that
+     * older scenes keep their hash */
     KILN_PART_HASHED = 4,
 };
 
@@ -26,6 +27,18 @@ unsigned kiln_row_if_it_paints(const void *scene, const void *look);
 unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object);
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
+/* Returns the bits of all parts if a force acts in a region alone, and otherwise 0, so that older
+ * scenes keep their hash. */
+unsigned kiln_row_if_region(const void *scene, const void *force);
+
+/* Return the bits of all parts if impacts stop particles, or if what they do is not certain, and
+ * otherwise 0. */
+unsigned kiln_row_if_stops(const void *scene, const void *collide);
+unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
+
+/* Returns the bits of all parts if deaths of parents at impacts count, and otherwise 0. */
+unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
+
 /* Returns the bits of all parts if a system's seed is not its place, and otherwise 0. */
 unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 
@@ -37,5 +50,9 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_PARTICLES_HIT_OBJECT  kiln_row_if_particles_hit_object
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 #define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned
+#define IF_REGION                kiln_row_if_region
+#define IF_STOPS                 kiln_row_if_stops
+#define IF_IMPACTS_COUNT         kiln_row_if_impacts_count
+#define IF_NOT_CERTAIN           kiln_row_if_not_certain
 
 #endif

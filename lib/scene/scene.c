@@ -313,6 +313,7 @@ void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_
                    .context = births,
                    .bursts = emit->bursts,
                    .burst_count = emit->burst_count,
+                   .random_key = kiln_scene_derived(scene, system).random_key,
                    .steps_num = scene->rate.num,
                    .steps_den = scene->rate.den,
                    .warmup_steps = scene->warmup_steps},

@@ -70,7 +70,8 @@ struct kiln_parent {
     uint32_t system; /* index of that system */
     enum kiln_event event;
     enum kiln_align align;
-    uint32_t count;         /* death, bounce: number of children of one parent */
+    uint32_t count[2];      /* death, bounce: the fewest and the most children of one parent */
+    bool impact;            /* death: a death at an impact counts as well */
     struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
     uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
 };
@@ -78,7 +79,7 @@ struct kiln_parent {
 struct kiln_emitter {
     struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
     struct kiln_value rate;    /* particles a second; clock constant or time */
-    struct kiln_burst bursts[KILN_MAX_BURSTS]; /* ascending in time */
+    struct kiln_burst bursts[KILN_MAX_BURSTS];
     uint32_t burst_count;
     struct kiln_range life;  /* s, at birth */
     struct kiln_range speed; /* m/s, at birth */
@@ -109,9 +110,18 @@ enum kiln_collide_mode {
     KILN_COLLIDE_CLAMP, /* the thesis: a position inside is clamped to the nearest face */
 };
 
+/* What an impact does to a particle. */
+enum kiln_then {
+    KILN_THEN_BOUNCE,
+    KILN_THEN_DIE,
+    KILN_THEN_STOP, /* it rests in the world where it hit, until its life ends */
+};
+
 struct kiln_collide {
     bool enabled;
-    bool dies; /* true: a particle dies at its first impact */
+    bool dies; /* the same as KILN_THEN_DIE, by the key of older scenes */
+    enum kiln_then then;
+    struct kiln_value chance; /* 0..1: of the first impact in a step to do what `then` says */
     enum kiln_collide_mode mode;
     struct kiln_value randomness;  /* 0 mirror .. 1 any direction of the hemisphere */
     struct kiln_value slowdown;    /* factor on the speed, 0..1 */

@@ -10,7 +10,7 @@
  * The speed that is compared is an estimate from above: births, air and accelerations are added, as
  * if all had one direction. Of a range of speeds at birth, it takes the value that a quarter of the
  * births stay below. Nothing is said where the speed is not known before the run: with grids of
- * air, points of attraction, interactions, or an inherited velocity. */
+ * air, points of attraction, regions of forces, interactions, or an inherited velocity. */
 #include "scene/small_steps.h"
 
 #include <math.h>
@@ -80,6 +80,7 @@ static void add_force(struct drive *drive, const struct kiln_scene *scene,
                       const struct kiln_force *force)
 {
     const float strength = most(scene, &force->strength);
+    drive->known &= !force->region.enabled;
     switch (force->kind) {
     case KILN_FORCE_GRAVITY:
         drive->acceleration += most_length(scene, &force->acceleration);

@@ -15,6 +15,7 @@
 #include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
 #include "scene/object_mesh.h"
+#include "scene/options.h"
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
 #include "scene/scene_births.h"
@@ -123,6 +124,18 @@ static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uin
     return kiln_births_bound(&births.source, steps, kiln_family_lifespan(scene, index, steps));
 }
 
+static bool refuse_crowd(struct kiln_reader *reader, const struct kiln_node *root,
+                         const struct kiln_system *system, uint32_t step)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    char path[128], time[48];
+    snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
+    kiln_unit_print(time, KILN_SECONDS, kiln_scene_time(scene, step - 1));
+    return kiln_reader_error_at(reader, root, path,
+                                "the step at %s has more than %d bursts: let them be less frequent",
+                                time, KILN_MAX_BURSTS);
+}
+
 static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -135,6 +148,8 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
         uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer may be empty */
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
+        if (bound.crowded)
+            return refuse_crowd(reader, root, system, bound.crowded);
         const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
         const char *advice = system->emit.parent.enabled ? "children, or the parents' rate or life"
                                                          : "rate, bursts or life";
@@ -275,6 +290,42 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
+/* Checks that a force that acts in a region has one. */
+static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
+                          const struct kiln_system *system)
+{
+    char path[128];
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        const struct kiln_force_region *region = &system->forces[i].region;
+        const struct kiln_option_kind *kind = kiln_force_kinds;
+        while (kind->value != (int)system->forces[i].kind)
+            kind++;
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region", system->name, i, kind->name);
+        if (region->enabled && region->box == region->sphere)
+            return kiln_reader_error_at(reader, root, path, "must have one of `box` and `sphere`");
+    }
+    return true;
+}
+
+/* Settles what impacts do, which has two keys: `dies` is that of older scenes. */
+static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *root,
+                           struct kiln_system *system)
+{
+    struct kiln_collide *collide = &system->collide;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.collide.then", system->name);
+    if (collide->dies && collide->then == KILN_THEN_STOP)
+        return kiln_reader_error_at(reader, root, path, "must not be stop where `dies` is true");
+    if (collide->enabled && collide->then == KILN_THEN_STOP && system->interaction_count > 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must not be stop where particles interact, since nothing "
+                                    "pushes a particle that has stopped");
+    collide->dies |= collide->then == KILN_THEN_DIE;
+    if (collide->dies)
+        collide->then = KILN_THEN_DIE;
+    return true;
+}
+
 /* Checks a system's interactions. Two of a kind are refused, since each would be computed from the
  * state before the other. */
 static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
@@ -363,6 +414,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !kiln_motion_layout_settle(reader, root, system) ||
+            !check_regions(reader, root, system) || !settle_impacts(reader, root, system) ||
             !check_interactions(reader, root, system) || !check_distances(reader, root, i) ||
             !kiln_particle_mesh_settle(reader, root, system))
             return false;

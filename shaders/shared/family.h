@@ -63,6 +63,22 @@ FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
     return e;
 }
 
+/* Returns how many children are born of an event of a parent. The parent's serial and the system of
+ * the children decide. */
+FN uint family_count(SIM_PARAM S(kiln_trace) t)
+{
+    uint fewest = STEP(family.fewest);
+    uint most = STEP(family.most);
+    if (fewest == most)
+        return most;
+    uint stream = random_stream(STEP(derived.random_key), t.serial_event.x);
+    EXACT float choices = FLOAT(most - fewest + 1u);
+    EXACT float drawn = random_unit(stream, RANDOM_CHILDREN) * choices;
+    uint more = UINT(drawn);
+    uint count = fewest + more;
+    return count < most ? count : most;
+}
+
 FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
 {
     EXACT S(family_event) e;
@@ -74,10 +90,11 @@ FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
             e = family_trail(SIM t, j);
     } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
         e.since = t.turn.w;
-        e.happens = (what & TRACE_BOUNCE) != 0u;
+        e.happens = (what & TRACE_BOUNCE) != 0u && j < family_count(SIM t);
     } else {
         e.since = t.end.w;
-        e.happens = (what & TRACE_DEATH) != 0u;
+        uint deaths = STEP(family.impacts) != 0u ? TRACE_DEATH | TRACE_FATAL : TRACE_DEATH;
+        e.happens = (what & deaths) != 0u && j < family_count(SIM t);
     }
     return e;
 }

@@ -10,6 +10,7 @@
 #include "shared/force_drag.h"
 #include "shared/force_gravity.h"
 #include "shared/force_limit.h"
+#include "shared/force_region.h"
 #include "shared/force_wind.h"
 
 #define FORCES(ROW)                                                                                \
@@ -61,6 +62,17 @@ FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
     return y;
 }
 
+/* Returns the effect of force i at a place, where the force acts in a region alone. */
+FN S(force_effect) forces_in_region(SIM_PARAM uint i, float3 position, S(force_effect) effect)
+{
+    EXACT float weight =
+        force_region_weight(position, STEP(forces[i].region), STEP(forces[i].region_center),
+                            STEP(forces[i].region_size));
+    EXACT S(force_effect) alone = forces_add(force_none(), effect);
+    EXACT S(force_effect) y = force_region_fade(alone, weight);
+    return y;
+}
+
 /* Returns the input of force i for a particle at a place. values: the force's options that vary
  * over the particle's life. */
 FN S(force_input) force_input_of(SIM_PARAM uint i, float3 position, S(force_values) values)
@@ -96,6 +108,8 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float3 velocity, S(valu
         values.scale = VALUE_OF(KEYED_FORCE_SCALE, SIM_KEYS STEP(forces[i].scale), here);
         EXACT S(force_input) force = force_input_of(SIM i, position, values);
         EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);
+        if (USES(USES_FORCES, FORCE_IN_REGION) && STEP(forces[i].region) != REGION_NONE)
+            effect = forces_in_region(SIM i, position, effect);
         sum = forces_add(sum, effect);
     }
     return sum;

@@ -70,6 +70,11 @@ struct kiln_emit_params {
 #define VORTEX_RANKINE    0u
 #define VORTEX_LAMB_OSEEN 1u
 
+/* Where a force acts. */
+#define REGION_NONE   0u /* everywhere */
+#define REGION_BOX    1u
+#define REGION_SPHERE 2u
+
 /* The options of a force. All kinds have one layout, so some members are of another quantity in
  * each kind: struct kiln_force (lib/scene/force.h) has them by their names. */
 struct kiln_force_params {
@@ -85,7 +90,9 @@ struct kiln_force_params {
     S(kiln_value) scale;     /* curl: size of the eddies; attract, vortex: radius; m */
     float inward, lift;      /* m/s */
     float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
-    uint unused;
+    uint region; /* REGION_* */
+    float4 region_center; /* m; w: over how many metres inside of the border the force fades */
+    float4 region_size;   /* m: half of the edges of a box; x: radius of a sphere */
 };
 
 #define INTEGRATE_SEMI_IMPLICIT  0u
@@ -112,6 +119,11 @@ struct kiln_force_params {
 #define ALIGN_VELOCITY 1u
 #define ALIGN_NORMAL   2u
 
+/* What an impact does to a particle. */
+#define THEN_BOUNCE 0u
+#define THEN_DIE    1u
+#define THEN_STOP   2u
+
 /* How a system is related to others: see family.h. */
 struct kiln_family_params {
     uint born_of;
@@ -120,9 +132,12 @@ struct kiln_family_params {
     uint parent_traces; /* index of the parent system's first trace */
     uint traced;        /* 1: the system has children or paint, so it leaves traces */
     uint traces;        /* index of its own first trace */
-    uint dies;          /* 1: particles die at their first impact */
-    uint unused;
-    S(kiln_value) rate; /* trail: children a second of the parent's life */
+    uint then;          /* THEN_* */
+    uint impacts;       /* 1: a parent's death at an impact counts as a death */
+    uint fewest, most;  /* death, bounce: children of a parent, drawn between the two */
+    uint unused0, unused1;
+    S(kiln_value) rate;   /* trail: children a second of the parent's life */
+    S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };
 
 struct kiln_step_params {

@@ -38,6 +38,7 @@ struct kiln_spin {
  * run of more steps than 22 bits hold is refused. */
 #define KILN_PARTICLE_ALIVE       1u
 #define KILN_PARTICLE_BOUNCED     2u /* systems with children: has hit a surface */
+#define KILN_PARTICLE_STOPPED     4u /* systems with THEN_STOP: rests where it hit a surface */
 #define KILN_BIRTH_STEP_SHIFT     10u
 #define KILN_BIRTH_FRACTION_SHIFT 4u
 #define KILN_BIRTH_FRACTION_MASK  63u

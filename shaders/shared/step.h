@@ -121,6 +121,7 @@ struct step_way {
     S(collide_state) end;
     S(collide_touch) first; /* first impact */
     bool lost;              /* the particle has reached a place where it dies */
+    bool stops;             /* an impact stops the particle for the rest of its life */
 };
 
 #if !defined(GL_core_profile) || defined(SPINS)
@@ -216,6 +217,7 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     way.end.position = push_farther(push, way.end.position);
     way.first = collide_no_touch();
     way.lost = true;
+    way.stops = false;
     way = step_meet(SIM way, push, clocks);
 #if !defined(GL_core_profile) || defined(SPINS)
     if (STEP(spins) != 0u && !way.lost)

@@ -1,8 +1,8 @@
 /* Runs one step of one slot for systems whose particles have children, are children, paint meshes,
- * or die of an impact. A family is a parent system and the systems of its children (family.h). This
- * header does more than step.h: it computes births from the parents' traces, makes traces
- * (trace.h), and lets a particle's motion end when its life ends within the step. For other systems
- * it gives the bits of step.h.
+ * or die or stop at an impact. A family is a parent system and the systems of its children
+ * (family.h). This header does more than step.h: it computes births from the parents' traces, makes
+ * traces (trace.h), and lets a particle's motion end when its life ends within the step. For other
+ * systems it gives the bits of step.h.
  *
  * The kernels of all GPU techniques call step_family_slot through shaders/sim/step/slot.glsl, for
  * families alone, since it would slow other systems down. The host steps blocks of slots
@@ -75,6 +75,54 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     return t;
 }
 
+/* Returns whether the first impact of this step ends a particle, or stops it. */
+FN bool step_is_chosen(SIM_PARAM S(kiln_particle) p, S(step_way) way, float age_s, float life_s)
+{
+    if (STEP(family.then) == THEN_BOUNCE || !way.first.happened)
+        return false;
+    EXACT S(value_clocks) clocks = step_clocks(SIM p, age_s, life_s);
+    EXACT float chance = VALUE_OF(KEYED_CHANCE, SIM_KEYS STEP(family.chance), clocks);
+    EXACT float drawn = random_unit(clocks.stream, RANDOM_CHANCE + STEP(step));
+    return drawn < chance;
+}
+
+/* Returns the way of a particle that an impact has stopped in an earlier step. */
+FN S(step_way) step_rest(S(kiln_particle) p, float until)
+{
+    EXACT S(step_way) way;
+    way.start.position = particle_position(p);
+    way.start.velocity = particle_velocity(p);
+    way.start.since = 0.0f;
+    way.start.spin = FLOAT3(0.0f, 0.0f, 0.0f);
+    way.end = way.start;
+    way.end.since = until;
+    way.first = collide_no_touch();
+    way.lost = false;
+    way.stops = false;
+    return way;
+}
+
+/* Returns a particle's way through this step, to the part `until` of it. If an impact stops the
+ * particle, the way ends there, at rest. */
+FN S(step_way) step_move_or_stop(SIM_PARAM S(kiln_particle) p, S(step_push) push, float age_s,
+                                 float life_s, float until)
+{
+    bool may_stop = STEP(family.then) == THEN_STOP;
+    EXACT S(step_way) way;
+    if (may_stop && (p.velocity_birth.w & KILN_PARTICLE_STOPPED) != 0u) {
+        way = step_rest(p, until);
+        return way;
+    }
+    way = step_move(SIM p, push, age_s, life_s, until);
+    if (may_stop && step_is_chosen(SIM p, way, age_s, life_s)) {
+        way.end.position = way.first.position;
+        way.end.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
+        way.stops = true;
+        way.lost = !step_is_sane(way.end.position) || step_is_removed(SIM way.end.position);
+    }
+    return way;
+}
+
 /* Returns a particle at the end of this step, and its trace. The particle may have been born in
  * this step. It is dead afterwards if its life ends in this step or if it is lost (step.h). A
  * particle that is lost leaves no trace. */
@@ -90,13 +138,13 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
     EXACT float until = 1.0f;
     if (ends)
         until = step_end_of_life(SIM p, age_s, life_s);
-    EXACT S(step_way) way = step_move(SIM p, push, age_s, life_s, until);
+    EXACT S(step_way) way = step_move_or_stop(SIM p, push, age_s, life_s, until);
     if (way.lost)
         return r;
     way.end.since = until;
-    bool stopped = STEP(family.dies) != 0u && way.first.happened;
+    bool dies = STEP(family.then) == THEN_DIE && step_is_chosen(SIM p, way, age_s, life_s);
     EXACT float progress = ends ? 1.0f : particle_progress(age_s, life_s);
-    if (stopped) {
+    if (dies) {
         EXACT float skipped = 1.0f - way.first.since;
         EXACT float reached_s = age_s - skipped * STEP(derived.dt_s);
         progress = particle_progress(reached_s, life_s);
@@ -104,19 +152,23 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
         way.end.velocity = way.first.velocity;
         way.end.since = way.first.since;
     }
-    if (!ends && !stopped)
+    if (!ends && !dies) {
         r.particle = step_with_motion(p, way.end.position, way.end.velocity);
+        r.particle.velocity_birth.w |= way.stops ? KILN_PARTICLE_STOPPED : 0u;
+    }
     if (!traced)
         return r;
     uint events = TRACE_ALIVE;
     if (way.first.happened) {
         bool hit_before = (p.velocity_birth.w & KILN_PARTICLE_BOUNCED) != 0u;
         events |= hit_before ? TRACE_TURN : TRACE_TURN | TRACE_BOUNCE;
-        if (!ends && !stopped)
+        if (!ends && !dies)
             r.particle.velocity_birth.w |= KILN_PARTICLE_BOUNCED;
     }
-    if (ends && !stopped) /* a particle that dies of an impact has only TRACE_BOUNCE */
+    if (ends && !dies)
         events |= TRACE_DEATH;
+    if (dies)
+        events |= TRACE_FATAL;
     r.trace = step_trace(SIM p, way, events, life_s, progress);
     return r;
 }

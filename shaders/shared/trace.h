@@ -11,9 +11,10 @@
 
 /* Events of the step; 0 if the slot had no living particle. */
 #define TRACE_ALIVE  1u
-#define TRACE_TURN   2u /* it hit a surface in this step */
-#define TRACE_BOUNCE 4u /* its first hit in its life */
-#define TRACE_DEATH  8u /* its life ended */
+#define TRACE_TURN   2u  /* it hit a surface in this step */
+#define TRACE_BOUNCE 4u  /* its first hit in its life */
+#define TRACE_DEATH  8u  /* its life ended */
+#define TRACE_FATAL  16u /* it died of its hit */
 
 struct kiln_trace {
     float4 start;          /* position, m; part of the step that had passed */

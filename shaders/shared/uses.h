@@ -30,13 +30,17 @@
 #define KEYED_FORCE_PULL      16u
 #define KEYED_FORCE_QUADRATIC 17u
 #define KEYED_FORCE_SCALE     18u
+#define KEYED_CHANCE          19u
+
+/* The bit of USES_FORCES that says whether any force acts in a region alone. */
+#define FORCE_IN_REGION 31u
 
 #ifdef GL_core_profile
 
 #ifndef USES_KEYS /* of KEYED_* */
 #define USES_KEYS 0xffffffffu
 #endif
-#ifndef USES_FORCES /* of FORCE_* */
+#ifndef USES_FORCES /* of FORCE_* and FORCE_IN_REGION */
 #define USES_FORCES 0xffffffffu
 #endif
 #ifndef USES_EMITTERS /* of EMIT_* */

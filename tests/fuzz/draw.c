@@ -241,8 +241,11 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "\"tests/support/whirl.grid\"");
     else if (type == &kiln_type_name)
         ADD_ONE(c, "a", "b");
+    else if (type == &kiln_type_counts)
+        ADD_ONE(c, "1", "6", "[1, 6]");
     else if (type == &kiln_type_bursts)
-        ADD_ONE(c, "{0 s: 9}", "{0 s: 1, 0.01 s: 30}");
+        ADD_ONE(c, "{0 s: 9}", "{0 s: 1, 0.01 s: 30}",
+                "[{at: 0 s, count: [0, 9], every: 0.01 s, most: 5, jitter: 0.01 s}]");
     else
         return false;
     return true;

@@ -140,7 +140,7 @@ static void depth_maps_agree(void **state)
 static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
 {
     struct kiln_system *s = fixture_add_system(&fixture, name, 400.0f);
-    s->emit.bursts[0] = (struct kiln_burst){0.0, 500};
+    s->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {500, 500}};
     s->emit.burst_count = 1;
     s->emit.shape = KILN_EMITTER_SPHERE;
     s->emit.radius = fixture_constant(0.7f);
@@ -251,9 +251,12 @@ static void births_are_split_among_emitters(void **state)
 {
     fixture_init(&fixture);
     struct kiln_system *s = fixture_add_system(&fixture, "burst", 0.0f);
-    s->emit.bursts[0] = (struct kiln_burst){0.1, 500 * SIM_EMITTER_BIRTHS + 1};
-    s->emit.bursts[1] = (struct kiln_burst){0.5, SIM_EMITTER_BIRTHS};
-    s->emit.bursts[2] = (struct kiln_burst){0.6, SIM_EMITTER_BIRTHS - 1};
+    s->emit.bursts[0] = (struct kiln_burst){
+        .time_s = 0.1, .count = {500 * SIM_EMITTER_BIRTHS + 1, 500 * SIM_EMITTER_BIRTHS + 1}};
+    s->emit.bursts[1] =
+        (struct kiln_burst){.time_s = 0.5, .count = {SIM_EMITTER_BIRTHS, SIM_EMITTER_BIRTHS}};
+    s->emit.bursts[2] = (struct kiln_burst){
+        .time_s = 0.6, .count = {SIM_EMITTER_BIRTHS - 1, SIM_EMITTER_BIRTHS - 1}};
     s->emit.burst_count = 3;
     fixture_finish(&fixture, 60);
     all_agree(*state, &fixture.scene, 60);

@@ -1,8 +1,7 @@
 /* Checks that each technique of the stage `simulate` computes the same bits as `cpu` where the
  * values of a scene vary over every clock. If this fails, GLSL evaluates a value in another way
  * than C (shaders/shared/value.h). */
-#include <string.h>
-
+#include "support/agree.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/parts.h"
@@ -35,7 +34,8 @@ static const char FLYING[] =
     "      - drag: {strength: {random: [0, 2]}, quadratic: {speed: {0: 0, 5 m/s: 0.5}}}\n"
     "      - wind: {velocity: {random: [[-1, 0, 0], [1, 0, 2]]},\n"
     "               pull: {height: {0 m: 0, 2 m: 3}, times: {life: [1, 0]}}}\n"
-    "      - curl: {strength: {noise: [0, 2], per: particle, octaves: 2}, scale: 0.5 m}\n"
+    "      - curl: {strength: {noise: [0, 2], per: particle, octaves: 2},\n"
+    "              scale: {random: [0.3, 0.8]}}\n"
     "      - limit: {speed: {age: {0 s: 3 m/s, 0.4 s: 5 m/s}, repeat: loop,\n"
     "                times: {keys: {0 s: 1, 1 s: 2}}, plus: {random: [0 m/s, 1 m/s]}}}\n"
     "    collide:\n"
@@ -67,49 +67,14 @@ static const char CROWD[] =
     "      - gravity: {strength: {random: [0, 0.02], times: {age: {0 s: 0, 1 s: 1}}}}\n"
     "    look: {size: {random: [0.02, 0.06], times: {life: [1, 0.5]}}, scale: {choose: [1, 2]}}\n";
 
-static void agree(struct kiln_device *device, const char *text, uint32_t steps)
-{
-    static const struct {
-        enum kiln_simulate_technique technique;
-        const char *name;
-    } ways[] = {{KILN_SIMULATE_INPLACE, "inplace"},
-                {KILN_SIMULATE_FEEDBACK, "feedback"},
-                {KILN_SIMULATE_PINGPONG, "pingpong"},
-                {KILN_SIMULATE_TEXELS, "texels"}};
-    struct kiln_error error = {0};
-    struct kiln_scene_params params = kiln_scene_defaults();
-    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "values", &params, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    for (size_t i = 0; i < (test_is_full() ? 4 : 1); i++) {
-        struct simulation cpu, other;
-        uint64_t alive, other_alive;
-        simulation_start(&cpu, scene, NULL, 2);
-        simulation_start_with(&other, scene, device, ways[i].technique, 1);
-        for (uint32_t step = 1; step <= steps; step++) {
-            simulation_run(&cpu, 1);
-            simulation_run(&other, 1);
-            const struct kiln_state_hash a = simulation_hash(&cpu, &alive);
-            const struct kiln_state_hash b = simulation_hash(&other, &other_alive);
-            if (alive != other_alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
-                fail_msg("step %u: %08x%08x on cpu, %08x%08x with %s", step, a.lane[0], a.lane[1],
-                         b.lane[0], b.lane[1], ways[i].name);
-        }
-        assert_true(alive > 500);
-        simulation_end(&other);
-        simulation_end(&cpu);
-    }
-    kiln_scene_destroy(&scene);
-}
-
 static void flying_particles_agree(void **state)
 {
-    agree(*state, FLYING, STEPS);
+    simulation_agree(*state, FLYING, NULL, STEPS);
 }
 
 static void crowds_agree(void **state)
 {
-    agree(*state, CROWD, STEPS / 2);
+    simulation_agree(*state, CROWD, NULL, STEPS / 2);
 }
 
 int main(int argc, char **argv)

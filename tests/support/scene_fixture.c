@@ -75,6 +75,7 @@ struct kiln_system *fixture_add_system(struct scene_fixture *f, const char *name
     system->emit.speed = fixture_range(1.0f, 2.0f);
     system->emit.direction = fixture_constant3(0.0f, 1.0f, 0.0f);
     system->collide.slowdown = system->collide.restitution = fixture_constant(1.0f);
+    system->collide.chance = fixture_constant(1.0f);
     return system;
 }
 
@@ -219,7 +220,7 @@ struct kiln_system *fixture_add_child(struct scene_fixture *f, const char *name,
                                                .name = f->scene.systems[parent].name,
                                                .system = parent,
                                                .event = event,
-                                               .count = count};
+                                               .count = {count, count}};
     return system;
 }
 
@@ -242,6 +243,7 @@ void fixture_finish(struct scene_fixture *f, uint32_t steps)
             .context = &context,
             .bursts = system->emit.bursts,
             .burst_count = system->emit.burst_count,
+            .random_key = kiln_scene_derived(&f->scene, i).random_key,
             .steps_num = f->scene.rate.num,
             .steps_den = f->scene.rate.den,
             .warmup_steps = f->scene.warmup_steps,
@@ -442,9 +444,9 @@ static void fixture_zoo_cone(struct scene_fixture *f)
     s->emit.direction.y = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -1.0f, 3.0f, 1.0f);
     s->emit.speed = fixture_range(5.0f, 90.0f);
     s->emit.origin = fixture_constant3(0.0f, 1.0f, 0.0f);
-    s->emit.bursts[0] = (struct kiln_burst){-0.31, 90};
-    s->emit.bursts[1] = (struct kiln_burst){1.0, 300};
-    s->emit.bursts[2] = (struct kiln_burst){1.011, 150};
+    s->emit.bursts[0] = (struct kiln_burst){.time_s = -0.31, .count = {90, 90}};
+    s->emit.bursts[1] = (struct kiln_burst){.time_s = 1.0, .count = {300, 300}};
+    s->emit.bursts[2] = (struct kiln_burst){.time_s = 1.011, .count = {150, 150}};
     s->emit.burst_count = 3;
     fixture_add_force(s, KILN_FORCE_GRAVITY)->vector = fixture_constant3(0.0f, -5.0f, 0.0f);
     s->collide.enabled = true;
@@ -519,7 +521,7 @@ void fixture_alone(struct scene_fixture *f, enum kiln_force_kind kind, uint32_t 
 {
     fixture_init(f);
     struct kiln_system *s = fixture_add_system(f, "alone", 0.0f);
-    s->emit.bursts[0] = (struct kiln_burst){0.0, 1500};
+    s->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {1500, 1500}};
     s->emit.burst_count = 1;
     s->emit.shape = KILN_EMITTER_BOX;
     s->emit.size = fixture_constant3(1.0f, 1.0f, 1.0f);

@@ -20,7 +20,7 @@ struct kiln_system *one_particle(float3 from, float3 velocity)
 {
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {1, 1}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(10.0f, 10.0f);
     float speed = float3_length(velocity);
@@ -80,7 +80,7 @@ void a_crowd_around(uint32_t count, float speed, float gravity)
 {
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "crowd", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, count};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {count, count}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(10.0f, 10.0f);
     system->emit.shape = KILN_EMITTER_BOX;

@@ -26,6 +26,11 @@ static struct kiln_births_source at_60_hz(const float *rate)
         .rate = constant_rate, .context = rate, .steps_num = 60, .steps_den = 1};
 }
 
+static struct kiln_burst once(double time_s, uint32_t count)
+{
+    return (struct kiln_burst){.time_s = time_s, .count = {count, count}};
+}
+
 static double birth_time(uint32_t step, const struct kiln_birth_group *group, uint32_t j)
 {
     return step - 1 + (group->first + j * group->spacing) / 4294967296.0;
@@ -94,7 +99,8 @@ static void bursts_come_at_their_time(void **state)
 {
     (void)state;
     float rate = 90.0f;
-    const struct kiln_burst bursts[] = {{-0.5, 7}, {0.2, 3}, {0.2 + 0.5 / 60, 4}, {10.0, 1}};
+    const struct kiln_burst bursts[] = {once(-0.5, 7), once(0.2, 3), once(0.2 + 0.5 / 60, 4),
+                                        once(10.0, 1)};
     struct kiln_births_source source = at_60_hz(&rate);
     source.bursts = bursts;
     source.burst_count = 4;
@@ -124,6 +130,116 @@ static void bursts_come_at_their_time(void **state)
     assert_int_equal(total, 180 + 7 + 3 + 4);
 }
 
+/* What a source does in one run: the times and counts of all bursts, in their order. */
+struct run_of_bursts {
+    double time_s[1000];
+    uint32_t count[1000], bursts;
+};
+
+static struct run_of_bursts run_bursts(const struct kiln_burst *burst, uint32_t key,
+                                       uint32_t steps_a_second, uint32_t seconds)
+{
+    static const float none = 0.0f;
+    struct kiln_births_source source = at_60_hz(&none);
+    source.bursts = burst;
+    source.burst_count = 1;
+    source.random_key = key;
+    source.steps_num = steps_a_second;
+    source.warmup_steps = steps_a_second;
+    struct run_of_bursts run = {.bursts = 0};
+    uint64_t wait = 0;
+    for (uint32_t step = 1; step <= (seconds + 1) * steps_a_second; step++) {
+        struct kiln_births births;
+        kiln_births_step(&source, step, &wait, &births);
+        for (uint32_t g = 0; g < births.group_count && run.bursts < 1000; g++) {
+            run.time_s[run.bursts] = birth_time(step, &births.groups[g], 0) / steps_a_second - 1;
+            run.count[run.bursts++] = births.groups[g].count;
+        }
+    }
+    return run;
+}
+
+static void repeated_bursts_come_every_so_often(void **state)
+{
+    (void)state;
+    struct kiln_burst burst = {.time_s = -0.25, .count = {5, 5}, .every_s = 0.1, .most = 7};
+    struct run_of_bursts run = run_bursts(&burst, 1, 60, 4);
+    assert_int_equal(run.bursts, 7);
+    for (uint32_t k = 0; k < run.bursts; k++) {
+        assert_int_equal(run.count[k], 5);
+        assert_true(fabs(run.time_s[k] - (-0.25 + 0.1 * k)) <= 0.5 / 64 / 60 + 1e-9);
+    }
+    burst.most = UINT32_MAX; /* to the end: 4.25 s */
+    assert_int_equal(run_bursts(&burst, 1, 60, 4).bursts, 43);
+    burst.every_s = 0.003; /* several in a step of 1/60 s */
+    assert_int_equal(run_bursts(&burst, 1, 60, 2).bursts, 751 - 1);
+    burst.time_s = -5.0; /* those before the run do not happen */
+    burst.every_s = 0.5;
+    assert_int_equal(run_bursts(&burst, 1, 60, 2).bursts, 6);
+}
+
+/* Numbers are uniform, each repetition has its own, and neither steps nor delays change them. */
+static void counts_are_drawn(void **state)
+{
+    (void)state;
+    struct kiln_burst burst = {
+        .count = {20, 30}, .every_s = 0.25, .most = UINT32_MAX, .jitter_s = 0.0};
+    const struct run_of_bursts run = run_bursts(&burst, 7, 60, 249);
+    const struct run_of_bursts other = run_bursts(&burst, 8, 60, 249);
+    burst.jitter_s = 0.25;
+    const struct run_of_bursts coarse = run_bursts(&burst, 7, 30, 249);
+    uint32_t seen[11] = {0}, differ = 0;
+    double sum = 0;
+    assert_int_equal(run.bursts, 996);
+    for (uint32_t k = 0; k < run.bursts; k++) {
+        assert_in_range(run.count[k], 20, 30);
+        seen[run.count[k] - 20]++;
+        sum += run.count[k];
+        differ += run.count[k] != other.count[k];
+        if (k < coarse.bursts)
+            assert_int_equal(run.count[k], coarse.count[k]);
+    }
+    for (uint32_t i = 0; i < 11; i++)
+        assert_in_range(seen[i], 60, 125); /* 91 each: four standard deviations */
+    assert_true(fabs(sum / run.bursts - 25.0) < 0.4);
+    assert_true(differ > 800);
+}
+
+static void delays_are_drawn(void **state)
+{
+    (void)state;
+    const struct kiln_burst burst = {
+        .count = {1, 1}, .every_s = 0.25, .most = UINT32_MAX, .jitter_s = 0.2};
+    const struct run_of_bursts run = run_bursts(&burst, 3, 60, 249);
+    double sum = 0, least = 1, most = 0;
+    assert_int_equal(run.bursts, 996);
+    for (uint32_t k = 0; k < run.bursts; k++) {
+        const double delay = run.time_s[k] - 0.25 * k;
+        assert_true(delay > -0.5 / 64 / 60 - 1e-9 && delay < 0.2 + 0.5 / 64 / 60);
+        sum += delay;
+        least = fmin(least, delay);
+        most = fmax(most, delay);
+    }
+    assert_true(least < 0.002 && most > 0.198);
+    assert_true(fabs(sum / run.bursts - 0.1) < 0.006);
+}
+
+/* A step has room for 64 bursts; the bound says which step has more. */
+static void a_crowded_step_is_found(void **state)
+{
+    (void)state;
+    static const float rate = 600.0f;
+    struct kiln_burst burst = {.time_s = 0.1, .count = {1, 1}, .every_s = 0.001, .most = 64};
+    struct kiln_births_source source = at_60_hz(&rate);
+    source.steps_num = 10;
+    source.bursts = &burst;
+    source.burst_count = 1;
+    assert_int_equal(kiln_births_bound(&source, 20, 1).crowded, 0);
+    assert_int_equal(kiln_births_bound(&source, 20, 1).total, 1200 + 64);
+    burst.most = 65;
+    assert_int_equal(kiln_births_bound(&source, 20, 1).crowded, 2);
+}
+
 static void senseless_rates_give_no_births(void **state)
 {
     (void)state;
@@ -148,7 +264,7 @@ static void the_bound_is_the_fullest_window(void **state)
 {
     (void)state;
     enum { STEPS = 400 };
-    const struct kiln_burst bursts[] = {{0.5, 40}, {1.4, 500}, {3.4, 300}};
+    const struct kiln_burst bursts[] = {once(0.5, 40), once(1.4, 500), once(3.4, 300)};
     struct kiln_births_source source = {.rate = ramp_rate,
                                         .bursts = bursts,
                                         .burst_count = 3,
@@ -190,6 +306,10 @@ int main(void)
         cmocka_unit_test(births_lie_where_the_integral_is_whole),
         cmocka_unit_test(keyed_rates_are_integrated),
         cmocka_unit_test(bursts_come_at_their_time),
+        cmocka_unit_test(repeated_bursts_come_every_so_often),
+        cmocka_unit_test(counts_are_drawn),
+        cmocka_unit_test(delays_are_drawn),
+        cmocka_unit_test(a_crowded_step_is_found),
         cmocka_unit_test(senseless_rates_give_no_births),
         cmocka_unit_test(the_bound_is_the_fullest_window),
     };

@@ -58,7 +58,7 @@ static struct kiln_system *a_crowd(uint32_t count)
 {
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "crowd", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, count};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {count, count}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(10.0f, 10.0f);
     system->emit.origin = fixture_constant3(0.0f, 1.0f, 0.0f);

@@ -45,7 +45,7 @@ static struct kiln_system *one_parent(double born_s, float life_s)
 {
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "parent", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){born_s, 1};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = born_s, .count = {1, 1}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(life_s, life_s);
     system->emit.speed = fixture_range(5.0f, 5.0f);

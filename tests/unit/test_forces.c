@@ -27,7 +27,7 @@ static struct kiln_system *one_particle(uint32_t rate, float speed)
     fixture.scene.fps = fixture.scene.rate = (struct kiln_rational){rate, 1};
     fixture.scene.dt_s = 1.0f / (float)rate;
     struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {1, 1}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(20.0f, 20.0f);
     system->emit.speed = fixture_range(speed, speed);

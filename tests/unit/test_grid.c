@@ -96,7 +96,7 @@ static struct kiln_particle blown(float3 from, float pull, uint32_t steps)
 {
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {1, 1}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(10.0f, 10.0f);
     system->emit.speed = fixture_range(0.0f, 0.0f);

@@ -122,7 +122,7 @@ static void every_key_of_a_system_arrives(void **state)
     assert_false(point->enabled);
     assert_int_equal(point->capacity, 1);
     assert_int_equal(point->emit.burst_count, 3);
-    assert_true(point->emit.bursts[2].time_s == 0.5 && point->emit.bursts[1].count == 100);
+    assert_true(point->emit.bursts[2].time_s == 0.5 && point->emit.bursts[1].count[0] == 100);
     assert_true(point->emit.angle.constant == 1 && point->emit.inherit.constant == 0.5f);
     static const enum kiln_force_kind kinds[] = {
         KILN_FORCE_GRAVITY, KILN_FORCE_GRAVITY, KILN_FORCE_DRAG, KILN_FORCE_DRAG,

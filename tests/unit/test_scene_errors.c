@@ -140,9 +140,49 @@ static const struct bad types[] = {
      "systems: {a: {collide: true}}\n",
      ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
     {"kiln: 1\n"
-     "systems: {a: {emit: {bursts: [1]}}}\n",
+     "systems: {a: {emit: {bursts: 9}}}\n",
      ":2:30: systems.a.emit.bursts: expected {time: particles, ...}, each number of particles a "
-     "whole number from 0 to 33554432, found a list"},
+     "whole number from 0 to 33554432, or a list of bursts, found '9'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [1]}}}\n",
+     ":2:31: systems.a.emit.bursts.0: expected a mapping of keys, found '1'"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{at: 0 s}]}}}\n",
+     ":2:31: systems.a.emit.bursts.0.count: the key is missing and must be given"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: [30, 20]}]}}}\n",
+     ":2:39: systems.a.emit.bursts.0.count: 30 is above 20; the least number comes first"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: [1, 2, 3]}]}}}\n",
+     ":2:39: systems.a.emit.bursts.0.count: expected a whole number from 0 to 33554432, or the "
+     "least and the greatest of those that are drawn, [a, b], found a list"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: 1, every: 0.1 ms}]}}}\n",
+     ":2:31: systems.a.emit.bursts.0: `every` is 0.0001 s; it must be 0 s, for a burst that is not "
+     "repeated, or at least 0.001 s"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: 1, every: 1 s, jitter: 2 s}]}}}\n",
+     ":2:31: systems.a.emit.bursts.0: the jitter of a burst that is repeated every 1 s must be at "
+     "most that; it is 2 s"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{at: 0.5 s, count: 1, every: 1 ms}]}}}\n"
+     "output: {fps: 10}\n"
+     "simulation: {rate: 10}\n",
+     ":2:30: systems.a.emit.bursts: the step at 0.5 s has more than 64 bursts: let them be less "
+     "frequent"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {dies: true, then: stop}}}\n",
+     ":2:43: systems.a.collide.then: must not be stop where `dies` is true"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: stop}, interact: [collide: {}]}}\n",
+     ":2:31: systems.a.collide.then: must not be stop where particles interact, since nothing "
+     "pushes a particle that has stopped"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [drag: {region: {falloff: 1 m}}]}}\n",
+     ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`"},
+    {"kiln: 1\n"
+     "systems: {a: {forces: [gravity: {region: {box: {}, sphere: {}}}]}}\n",
+     ":2:42: systems.a.forces.0.gravity.region: must have one of `box` and `sphere`"},
     {"kiln: 1\n"
      "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "
@@ -291,7 +331,8 @@ static const struct bad kinds[] = {
      ":2:39: systems.a.forces.0.wind.field: expected a word, found a list"},
     {"kiln: 1\n"
      "systems: {a: {forces: [{wind: {octaves: 2}}]}}\n",
-     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode)"},
+     ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode, "
+     "region)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
      ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "

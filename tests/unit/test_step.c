@@ -22,7 +22,7 @@ static struct kiln_system *one_particle(struct scene_fixture *f)
 {
     fixture_init(f);
     struct kiln_system *system = fixture_add_system(f, "one", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 1};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {1, 1}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(10.0f, 10.0f);
     system->emit.speed = fixture_range(5.0f, 5.0f);
@@ -205,7 +205,7 @@ static void turning_emitters_throw_sideways(void **state)
     (void)state;
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "disc", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 100};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {100, 100}};
     system->emit.burst_count = 1;
     system->emit.speed = fixture_range(0.0f, 0.0f);
     system->emit.shape = KILN_EMITTER_DISC;

@@ -251,7 +251,7 @@ static void rain_on_spikes(struct kiln_terrain_params *params, float speed, bool
 {
     fixture_init(&fixture);
     struct kiln_system *system = fixture_add_system(&fixture, "crowd", 0.0f);
-    system->emit.bursts[0] = (struct kiln_burst){0.0, 2000};
+    system->emit.bursts[0] = (struct kiln_burst){.time_s = 0.0, .count = {2000, 2000}};
     system->emit.burst_count = 1;
     system->emit.life = fixture_range(10.0f, 10.0f);
     system->emit.shape = KILN_EMITTER_BOX;

@@ -85,10 +85,12 @@ static void values_with_keys_are_known(void **state)
         {"systems.a.collide={slowdown: {life: [0, 1]}}", BIT(KEYED_SLOWDOWN)},
         {"systems.a.collide={restitution: {life: [0, 1]}}", BIT(KEYED_RESTITUTION)},
         {"systems.a.collide={friction: {life: [0, 1]}}", BIT(KEYED_FRICTION)},
+        {"systems.a.collide={chance: {life: [0, 1]}}", BIT(KEYED_CHANCE)},
         {"systems.a.forces=[gravity: {life: [[0, 1, 0], [0, 2, 0]]}]", BIT(KEYED_FORCE_VECTOR)},
         {"systems.a.forces=[curl: {strength: " OVER_LIFE "}]", BIT(KEYED_FORCE_STRENGTH)},
         {"systems.a.forces=[curl: {pull: " OVER_LIFE "}]", BIT(KEYED_FORCE_PULL)},
         {"systems.a.forces=[drag: {quadratic: " OVER_LIFE "}]", BIT(KEYED_FORCE_QUADRATIC)},
+        {"systems.a.forces=[vortex: {radius: " OVER_LIFE "}]", BIT(KEYED_FORCE_SCALE)},
         /* values that the host evaluates in each step */
         {"systems.a.forces=[curl: {strength: " OVER_TIME "}]", 0},
         {"systems.a.collide={slowdown: {keys: {0 s: 1, 1 s: 0.5}}}", 0},
@@ -105,6 +107,7 @@ static void forces_are_known(void **state)
         {"systems.a.forces=[drag: 1, wind: {}]", BIT(FORCE_DRAG) | BIT(FORCE_WIND)},
         {"systems.a.forces=[curl: {}, attract: {}]", BIT(FORCE_CURL) | BIT(FORCE_ATTRACT)},
         {"systems.a.forces=[vortex: 1]", BIT(FORCE_VORTEX)},
+        {"systems.a.forces=[drag: {region: {sphere: {}}}]", BIT(FORCE_DRAG) | BIT(FORCE_IN_REGION)},
     };
     EXPECT("USES_FORCES", uses);
 }

@@ -50,7 +50,8 @@ void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *
     const struct kiln_family_params *family = &sim->step->family;
     struct kiln_particle *record = &slots->records[slot];
     struct kiln_trace trace = trace_nothing();
-    if (b->alone[i] == ALONE_TOUCHES && !family->traced && !family->dies) {
+    const bool bounces = family->then == THEN_BOUNCE;
+    if (b->alone[i] == ALONE_TOUCHES && !family->traced && bounces) {
         *record = step_touching(sim, b, i, slot, before);
     } else if (b->alone[i] != ALONE_NOT) {
         const struct kiln_trace *parent =

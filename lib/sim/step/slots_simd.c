@@ -62,6 +62,15 @@ static inline struct force_effect effect_at(const struct kiln_block *b, uint32_t
     return (struct force_effect){kiln_get3(&b->acceleration, i), b->pull[i], b->quadratic[i]};
 }
 
+static inline void clear_sum(struct kiln_block *b)
+{
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
+        b->pull[i] = 0.0f;
+        b->quadratic[i] = 0.0f;
+    }
+}
+
 static inline void add_effect(struct kiln_block *b, uint32_t i, struct force_effect effect)
 {
     struct force_effect sum = forces_add(effect_at(b, i), effect);
@@ -129,18 +138,46 @@ static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, u
     }
 }
 
+/* Puts the sum of the forces aside, so that the next force is summed up alone. */
+static inline void keep_sum(struct kiln_block *b)
+{
+    b->kept_acceleration = b->acceleration;
+    memcpy(b->kept_pull, b->pull, sizeof b->pull);
+    memcpy(b->kept_quadratic, b->quadratic, sizeof b->quadratic);
+    clear_sum(b);
+}
+
+/* Adds the part of the force that acts at each lane's place to the sum that was put aside, as
+ * forces_in_region does. */
+static inline void add_in_region(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
+{
+    const uint region = sim->step->forces[number].region;
+    const float4 center = sim->step->forces[number].region_center;
+    const float4 size = sim->step->forces[number].region_size;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float weight = force_region_weight(kiln_get3(&b->at, i), region, center, size);
+        const struct force_effect faded = force_region_fade(effect_at(b, i), weight);
+        kiln_set3(&b->acceleration, i, kiln_get3(&b->kept_acceleration, i));
+        b->pull[i] = b->kept_pull[i];
+        b->quadratic[i] = b->kept_quadratic[i];
+        add_effect(b, i, faded);
+    }
+}
+
 /* Both ways to integrate call this, so it is not inlined into them: it is most of their code. */
 __attribute__((flatten, noinline)) static void
 add_forces(const struct kiln_sim *sim, struct kiln_block *b, const struct kiln_floats3 *velocity)
 {
     b->clocks.velocity = velocity;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
-        b->pull[i] = 0.0f;
-        b->quadratic[i] = 0.0f;
-    }
-    for (uint32_t k = 0; k < sim->step->force_count; k++)
+    clear_sum(b);
+    for (uint32_t k = 0; k < sim->step->force_count; k++) {
+        const bool in_region = sim->step->forces[k].region != REGION_NONE;
+        if (in_region)
+            keep_sum(b);
         add_force(sim, b, k);
+        if (in_region)
+            add_in_region(sim, b, k);
+    }
 }
 
 static inline void limit_speed(const struct kiln_sim *sim, struct kiln_block *b,
@@ -294,6 +331,26 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *
     b->velocity = s->moving;
 }
 
+/* Returns whether lane i has a particle that an impact has stopped. */
+static inline uint32_t rests_at(const struct kiln_sim *sim, const struct kiln_block *b, uint32_t i)
+{
+    return sim->step->family.then == THEN_STOP &&
+           (b->lanes.words[7][i] & KILN_PARTICLE_STOPPED) != 0;
+}
+
+/* Puts particles that an impact has stopped back to where they are, as step_rest does. */
+static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b)
+{
+    if (sim->step->family.then != THEN_STOP)
+        return;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        if (!rests_at(sim, b, i))
+            continue;
+        kiln_set3(&b->position, i, particle_position(record_at(b, i)));
+        kiln_set3(&b->velocity, i, particle_velocity(record_at(b, i)));
+    }
+}
+
 static inline void find_lost(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const struct kiln_step_params *step = sim->step;
@@ -323,7 +380,8 @@ static inline void find_alone(const struct kiln_sim *sim, struct kiln_block *b)
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         const uint32_t alive = particle_is_alive(record_at(b, i));
         const uint32_t ends = b->lanes.age_s[i] >= b->lanes.life_s[i];
-        const uint32_t touches = b->alone[i] & (0u - (alive & (1u ^ ends)));
+        const uint32_t flies = 1u ^ rests_at(sim, b, i);
+        const uint32_t touches = b->alone[i] & (0u - (alive & (1u ^ ends) & flies));
         const uint32_t leaves = (alive & ends & traced) ? ALONE_LEAVES : touches;
         b->alone[i] = b->born[i] ? ALONE_BORN : leaves;
     }
@@ -431,6 +489,7 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     else
         fly(sim, b);
     push_on(sim, b, first_slot);
+    stay_at_rest(sim, b);
     find_lost(sim, b);
     find_alone(sim, b);
     move(b);

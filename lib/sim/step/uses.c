@@ -51,6 +51,7 @@ static void add_impacts(struct uses *uses, const float4 *keys, const struct kiln
     add_curve(uses, KEYED_SLOWDOWN, kiln_value_uses(keys, &collide->slowdown));
     add_curve(uses, KEYED_RESTITUTION, kiln_value_uses(keys, &collide->restitution));
     add_curve(uses, KEYED_FRICTION, kiln_value_uses(keys, &collide->friction));
+    add_curve(uses, KEYED_CHANCE, kiln_value_uses(keys, &collide->chance));
 }
 
 static void add_force(struct uses *uses, const float4 *keys, const struct kiln_force *force)
@@ -61,7 +62,7 @@ static void add_force(struct uses *uses, const float4 *keys, const struct kiln_f
     add_curve(uses, KEYED_FORCE_PULL, kiln_value_uses(keys, &force->pull));
     add_curve(uses, KEYED_FORCE_QUADRATIC, kiln_value_uses(keys, &force->quadratic));
     add_curve(uses, KEYED_FORCE_SCALE, kiln_value_uses(keys, &force->scale));
-    uses->forces |= 1u << (uint)force->kind;
+    uses->forces |= 1u << (uint)force->kind | bit(FORCE_IN_REGION, force->region.enabled);
 }
 
 uint kiln_sim_colliders_used(const struct kiln_scene *scene)

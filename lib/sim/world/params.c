@@ -17,7 +17,7 @@
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
 static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
-static_assert(sizeof(struct kiln_force_params) == 192, "std140");
+static_assert(sizeof(struct kiln_force_params) == 224, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
@@ -25,8 +25,8 @@ static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 7952, "std140");
-static_assert(sizeof(struct kiln_step_params) == 8000, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 8976, "std140");
+static_assert(sizeof(struct kiln_step_params) == 9056, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -55,6 +55,10 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
                   ALIGN_VELOCITY == (uint)KILN_ALIGN_VELOCITY &&
                   ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
               "the shaders' names of enum kiln_align");
+
+static_assert(THEN_BOUNCE == (uint)KILN_THEN_BOUNCE && THEN_DIE == (uint)KILN_THEN_DIE &&
+                  THEN_STOP == (uint)KILN_THEN_STOP,
+              "the shaders' names of enum kiln_then");
 
 static float4 to_float4(const float v[3])
 {
@@ -161,6 +165,13 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
     }
 }
 
+static uint then_of(const struct kiln_collide *collide)
+{
+    if (!collide->enabled)
+        return THEN_BOUNCE;
+    return collide->dies ? THEN_DIE : (uint)collide->then;
+}
+
 bool kiln_sim_is_traced(const struct kiln_scene *scene, uint32_t system)
 {
     return kiln_family_has_children(scene, system) || kiln_scene_paints(scene, system);
@@ -177,13 +188,15 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         const struct kiln_system *system = &scene->systems[index];
         const struct kiln_parent *parent = &system->emit.parent;
         struct kiln_family_params *family = &params->systems[index].family;
-        *family =
-            (struct kiln_family_params){.dies = system->collide.enabled && system->collide.dies};
+        *family = (struct kiln_family_params){.then = then_of(&system->collide)};
         if (parent->enabled) {
             family->born_of = 1 + (uint)parent->event;
             family->align = (uint)parent->align;
             family->slots = parent->slots;
             family->rate = parent->rate;
+            family->fewest = parent->count[0];
+            family->most = parent->count[1];
+            family->impacts = parent->impact;
             family->parent_traces = params->systems[parent->system].family.traces;
         }
         if (kiln_sim_is_traced(scene, index)) {
@@ -236,7 +249,7 @@ static void find_spin(struct kiln_step_params *params, const struct kiln_scene *
 bool kiln_sim_is_family(const struct kiln_step_params *params)
 {
     const struct kiln_family_params *family = &params->family;
-    return family->born_of != BORN_OF_CLOCK || family->traced != 0 || family->dies != 0;
+    return family->born_of != BORN_OF_CLOCK || family->traced != 0 || family->then != THEN_BOUNCE;
 }
 
 void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
@@ -274,6 +287,23 @@ static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 va
     return (struct kiln_value3){at_time(m, value.x), at_time(m, value.y), at_time(m, value.z)};
 }
 
+/* Fills in where a force acts. */
+static void fill_region(struct kiln_force_params *params, const struct moment *m,
+                        const struct kiln_force_region *region)
+{
+    const struct kiln_scene *scene = m->scene;
+    const struct kiln_value3 *center = region->sphere ? &region->ball_center : &region->box_center;
+    const float3 place = kiln_scene_system_value3(scene, m->system, center, m->time_s);
+    const float3 edges = kiln_scene_system_value3(scene, m->system, &region->box_size, m->time_s);
+    const float radius = kiln_scene_system_value(scene, m->system, &region->radius, m->time_s);
+    const float falloff = kiln_scene_system_value(scene, m->system, &region->falloff, m->time_s);
+    params->region = region->sphere ? REGION_SPHERE : REGION_BOX;
+    params->region_center = FLOAT4(place.x, place.y, place.z, falloff);
+    params->region_size = FLOAT4(0.5f * edges.x, 0.5f * edges.y, 0.5f * edges.z, 0.0f);
+    if (region->sphere)
+        params->region_size = FLOAT4(radius, 0.0f, 0.0f, 0.0f);
+}
+
 static struct kiln_force_params force_at_time(const struct moment *m,
                                               const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force)
@@ -296,6 +326,8 @@ static struct kiln_force_params force_at_time(const struct moment *m,
         params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
         params.pull = (struct kiln_value){.constant = 0.0f};
     }
+    if (force->region.enabled)
+        fill_region(&params, m, &force->region);
     return params;
 }
 
@@ -392,6 +424,7 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
         p->slowdown = at_time(&start, system->collide.slowdown);
         p->restitution = at_time(&start, system->collide.restitution);
         p->friction = at_time(&start, system->collide.friction);
+        p->family.chance = at_time(&start, system->collide.chance);
         for (uint32_t k = 0; k < system->force_count; k++)
             p->forces[k] = force_at_time(&acting, params->grids, &system->forces[k]);
     }
