@@ -26,6 +26,19 @@ unsigned kiln_row_if_it_paints(const void *scene, const void *look);
 unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object);
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
+/* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
+ * kiln_object, kiln_light or kiln_camera. */
+unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
+unsigned kiln_row_if_object_is_attached(const void *scene, const void *object);
+unsigned kiln_row_if_light_is_attached(const void *scene, const void *light);
+unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera);
+
+/* Returns the bits of what is attached to a node, or to nodes that lie in it. base is a struct
+ * kiln_scene_node, or a struct within one. */
+unsigned kiln_row_of_node(const void *scene, const void *inside);
+/* Returns the bits of all nodes together; 0 if there are none. */
+unsigned kiln_row_of_nodes(const void *scene, const void *base);
+
 /* Returns the bits of all parts if a system's seed is not its place, and otherwise 0. */
 unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 
@@ -37,5 +50,11 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_PARTICLES_HIT_OBJECT  kiln_row_if_particles_hit_object
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 #define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned
+#define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
+#define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached
+#define IF_LIGHT_IS_ATTACHED     kiln_row_if_light_is_attached
+#define IF_CAMERA_IS_ATTACHED    kiln_row_if_camera_is_attached
+#define OF_NODE                  kiln_row_of_node
+#define OF_NODES                 kiln_row_of_nodes
 
 #endif

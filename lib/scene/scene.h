@@ -18,6 +18,7 @@
 #include "scene/force.h"
 #include "scene/interaction.h"
 #include "scene/light.h"
+#include "scene/node.h"
 #include "scene/pattern.h"
 #include "scene/post.h"
 #include "shared/draw_layout.h"
@@ -83,6 +84,7 @@ struct kiln_emitter {
     struct kiln_range life;  /* s, at birth */
     struct kiln_range speed; /* m/s, at birth */
     enum kiln_emitter_shape shape;
+    struct kiln_attach attach;    /* the shape lies in this node */
     struct kiln_value3 origin;    /* m: centre of the shape, apex disc's centre of a cone */
     struct kiln_value3 direction; /* need not be normalised; not zero unless outward */
     struct kiln_value angle;      /* rad: half angle of the directions about `direction`, 0..pi */
@@ -339,6 +341,7 @@ struct kiln_object_paint {
 struct kiln_object {
     const char *name; /* NULL for an entry of a list */
     enum kiln_object_kind kind;
+    struct kiln_attach attach; /* the object lies in this node; not of terrain */
     /* m; mesh: place of its file's origin; terrain: middle and lowest height, constant */
     struct kiln_value3 center;
     struct kiln_value3 color;    /* albedo */
@@ -449,6 +452,8 @@ struct kiln_scene {
     struct kiln_bounds bounds; /* bounds of systems without their own; copied to them */
     float dt_s;                /* 1 / rate, rounded once */
 
+    struct kiln_scene_node nodes[KILN_MAX_NODES];
+    uint32_t node_count;
     struct kiln_camera camera;
     struct kiln_backdrop backdrop;
     struct kiln_system systems[KILN_MAX_SYSTEMS];
@@ -509,7 +514,7 @@ bool kiln_value3_is_constant(const struct kiln_value3 *value);
 /* Returns whether both ends of a range are one value, with the same keys if it has any. */
 bool kiln_range_is_one_value(const struct kiln_range *range);
 
-/* Returns whether an object is a box that has a rotation at any time. */
+/* Returns whether an object is a box that has a rotation at any time, or lies in a node. */
 bool kiln_object_is_oriented_box(const struct kiln_object *object);
 
 /* Return limits that a value never goes over, or below (kiln_value_most). */

@@ -13,20 +13,21 @@
 #include "shared/random.h"
 #include "shared/trace.h"
 #include "sim/world/colliders.h"
+#include "sim/world/emit_frame.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
-static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
+static_assert(sizeof(struct kiln_emit_params) == 368, "std140");
 static_assert(sizeof(struct kiln_force_params) == 192, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
-static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
-static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
-static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
-static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 7952, "std140");
-static_assert(sizeof(struct kiln_step_params) == 8000, "std140");
+static_assert(offsetof(struct kiln_step_params, step) == 416, "std140");
+static_assert(offsetof(struct kiln_step_params, randomness) == 480, "std140");
+static_assert(offsetof(struct kiln_step_params, pushed) == 548, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 880, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1920, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 8064, "std140");
+static_assert(sizeof(struct kiln_step_params) == 8112, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -77,6 +78,7 @@ static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emit
         .radius = emit->radius,
         .inherit = emit->inherit,
         .turn = emit->turn,
+        .attached = emit->attach.name != NULL,
     };
 }
 
@@ -371,6 +373,8 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
         p->capacity = pool->systems[i].capacity;
         p->used = kiln_pool_used(&pool->systems[i]);
         find_spin(p, scene, i, p->time_s);
+        if (p->emit.attached)
+            p->emit.frame = kiln_emit_frame(scene, scene->systems[i].emit.attach.node, step);
     }
     return true;
 }
