@@ -3,6 +3,7 @@
 #ifndef KILN_SCENE_FORCE_H
 #define KILN_SCENE_FORCE_H
 
+#include "scene/node.h"
 #include "shared/layout.h"
 
 enum kiln_force_kind {
@@ -40,6 +41,7 @@ enum kiln_wind_mode {
  * read them. */
 struct kiln_force {
     enum kiln_force_kind kind;
+    struct kiln_attach attach; /* attract, vortex: place, axis and radius lie in this node */
     union {
         struct kiln_value3 vector;
         struct kiln_value3 acceleration; /* gravity: m/s^2 */

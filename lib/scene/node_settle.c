@@ -134,7 +134,21 @@ static bool find_backdrop(struct kiln_reader *reader, const struct kiln_node *ro
     return ok;
 }
 
-static bool find_emitters(struct kiln_reader *reader, const struct kiln_node *root)
+static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root,
+                        struct kiln_system *system)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < system->force_count; i++) {
+        struct kiln_force *force = &system->forces[i];
+        char path[96];
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.attach", system->name, i,
+                 force->kind == KILN_FORCE_VORTEX ? "vortex" : "attract");
+        ok = find_node(reader, root, path, &force->attach);
+    }
+    return ok;
+}
+
+static bool find_systems(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -142,7 +156,7 @@ static bool find_emitters(struct kiln_reader *reader, const struct kiln_node *ro
         struct kiln_emitter *emit = &system->emit;
         char path[80];
         snprintf(path, sizeof path, "systems.%s.emit.attach", system->name);
-        if (!find_node(reader, root, path, &emit->attach))
+        if (!find_node(reader, root, path, &emit->attach) || !find_forces(reader, root, system))
             return false;
         if (emit->attach.name && emit->parent.enabled)
             return kiln_reader_error_at(reader, root, path,
@@ -182,5 +196,5 @@ bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
     for (uint32_t i = 0; ok && i < scene->node_count; i++)
         ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
     return ok && settle_camera(reader, root) && find_backdrop(reader, root) &&
-           find_emitters(reader, root);
+           find_systems(reader, root);
 }

@@ -103,6 +103,12 @@ unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter)
     return ((const struct kiln_emitter *)emitter)->attach.name ? BOTH : 0;
 }
 
+unsigned kiln_row_if_force_is_attached(const void *scene, const void *force)
+{
+    (void)scene;
+    return ((const struct kiln_force *)force)->attach.name ? BOTH : 0;
+}
+
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object)
 {
     (void)scene;
@@ -128,13 +134,22 @@ static bool is_carried(const struct kiln_scene *scene, uint32_t node,
     return attach->name && kiln_node_carries(scene, node, attach->node);
 }
 
+static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
+                            const struct kiln_system *system)
+{
+    bool moves = is_carried(scene, node, &system->emit.attach);
+    for (uint32_t i = 0; i < system->force_count; i++)
+        moves = moves || is_carried(scene, node, &system->forces[i].attach);
+    return moves;
+}
+
 static unsigned parts_of_node(const struct kiln_scene *scene, uint32_t node)
 {
     unsigned parts = NEITHER;
     if (is_carried(scene, node, &scene->camera.attach))
         parts |= KILN_PART_VIEW;
     for (uint32_t i = 0; i < scene->system_count; i++)
-        parts |= is_carried(scene, node, &scene->systems[i].emit.attach) ? BOTH : 0;
+        parts |= moves_particles(scene, node, &scene->systems[i]) ? BOTH : 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
         parts |= is_carried(scene, node, &scene->backdrop.objects[i].attach) ? BOTH : 0;
     return parts;

@@ -27,8 +27,9 @@ unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
 /* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
- * kiln_object, kiln_light or kiln_camera. */
+ * kiln_force, kiln_object, kiln_light or kiln_camera. */
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
+unsigned kiln_row_if_force_is_attached(const void *scene, const void *force);
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object);
 unsigned kiln_row_if_light_is_attached(const void *scene, const void *light);
 unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera);
@@ -51,6 +52,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 #define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned
 #define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
+#define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached
 #define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached
 #define IF_LIGHT_IS_ATTACHED     kiln_row_if_light_is_attached
 #define IF_CAMERA_IS_ATTACHED    kiln_row_if_camera_is_attached

@@ -38,6 +38,8 @@ static const char SCENE[] =
     "  b:\n"
     "    emit: {rate: 900, attach: ship, inherit: {random: [0, 1]},\n"
     "           from: {cone: {direction: [0, 0, -1]}}}\n"
+    "    forces: [{attract: {attach: hub, position: [0, 1, 0], strength: 3}},\n"
+    "             {vortex: {attach: ship, axis: [0, 0, 1], radius: 0.3}}]\n"
     "    collide: {}\n"
     "  c:\n"
     "    emit: {rate: 900, attach: jump, inherit: 1, from: {sphere: {outward: true}}}\n"

@@ -91,6 +91,9 @@ static const struct bad attached[] = {
      "systems: {s: {emit: {attach: a}}}\n",
      ":2:30: systems.s.emit.attach: unknown node 'a' (there are none)"},
     {"kiln: 1\n"
+     "systems: {s: {forces: [{drag: 1}, {vortex: {attach: a}}]}}\n",
+     ":2:53: systems.s.forces.1.vortex.attach: unknown node 'a' (there are none)"},
+    {"kiln: 1\n"
      "nodes: {a: {}}\n"
      "systems: {s: {emit: {rate: 1}}, t: {emit: {attach: a, parent: {system: s}}}}\n",
      ":3:52: systems.t.emit.attach: must be none for a system with a parent, around whose "

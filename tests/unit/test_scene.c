@@ -227,8 +227,11 @@ static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
         node->position.path.points.at = path->points.at;
         node->position.path.table = path->table;
     }
-    for (uint32_t i = 0; i < left->system_count; i++)
+    for (uint32_t i = 0; i < left->system_count; i++) {
         take_attach(&left->systems[i].emit.attach, &right->systems[i].emit.attach);
+        for (uint32_t k = 0; k < left->systems[i].force_count; k++)
+            take_attach(&left->systems[i].forces[k].attach, &right->systems[i].forces[k].attach);
+    }
     for (uint32_t i = 0; i < left->backdrop.object_count; i++)
         take_attach(&left->backdrop.objects[i].attach, &right->backdrop.objects[i].attach);
     for (uint32_t i = 0; i < left->backdrop.light_count; i++)

@@ -276,6 +276,29 @@ static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 va
     return (struct kiln_value3){at_time(m, value.x), at_time(m, value.y), at_time(m, value.z)};
 }
 
+static float3 constants_of(const struct kiln_value3 *value)
+{
+    return FLOAT3(value->x.constant, value->y.constant, value->z.constant);
+}
+
+static struct kiln_value3 of_constants(float3 v)
+{
+    return (struct kiln_value3){
+        .x = {.constant = v.x}, .y = {.constant = v.y}, .z = {.constant = v.z}};
+}
+
+/* Takes a force from its node to the world. Its place, axis and radius do not differ between
+ * particles, so they are constants in a step. */
+static void attach_force(const struct moment *m, const struct kiln_attach *attach,
+                         struct kiln_force_params *params)
+{
+    const float3 at = constants_of(&params->vector), axis = constants_of(&params->second);
+    params->vector = of_constants(kiln_attached_point(m->scene, attach, at, m->time_s));
+    params->second = of_constants(kiln_attached_vector(m->scene, attach, axis, m->time_s));
+    params->scale.constant =
+        kiln_attached_length(m->scene, attach, params->scale.constant, m->time_s);
+}
+
 static struct kiln_force_params force_at_time(const struct moment *m,
                                               const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force)
@@ -298,6 +321,8 @@ static struct kiln_force_params force_at_time(const struct moment *m,
         params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
         params.pull = (struct kiln_value){.constant = 0.0f};
     }
+    if (force->attach.name)
+        attach_force(m, &force->attach, &params);
     return params;
 }
 
