@@ -137,6 +137,11 @@ static void print_system(void *user, const char *name)
     print_part(user, name, '.', "a system");
 }
 
+static void print_node(void *user, const char *name)
+{
+    print_part(user, name, '.', "a node");
+}
+
 static void print_entries(struct value *value, bool named)
 {
     if (strstr(value->printed, "\n*.\n"))
@@ -145,6 +150,8 @@ static void print_entries(struct value *value, bool named)
     print_part(value, "*", '.', "every entry");
     if (!named)
         print_part(value, "0", '.', "the first entry");
+    else if (value->line->operand && strncmp(value->rest, "nodes.", strlen("nodes.")) == 0)
+        kiln_scene_visit_names(value->line->operand, "nodes", print_node, value, &error);
     else if (value->line->operand)
         kiln_scene_visit_names(value->line->operand, "systems", print_system, value, &error);
 }

@@ -177,6 +177,8 @@ static const struct size {
     {"objects", KILN_MAX_OBJECTS, .help = "Objects of the backdrop, meshes and terrain included"},
     {"meshes", KILN_MAX_MESHES, .help = "Meshes and terrains of the backdrop"},
     {"lights", KILN_MAX_LIGHTS, .help = "Lights of the backdrop"},
+    {"nodes", KILN_MAX_NODES, .help = "Nodes"},
+    {"points", KILN_MAX_PATH_POINTS, .help = "Points of a node's path"},
     {"parameters", KILN_MAX_PARAMS, .help = "Parameters"},
     {"includes", KILN_INCLUDE_MAX_FILES, .help = "Included files, through at most 8 files"},
     {"copies", KILN_NODE_MAX_COPIES, .help = "Nodes that aliases, uses and parameters copy"},

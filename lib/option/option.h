@@ -153,7 +153,8 @@ struct kiln_option {
     size_t name_offset; /* of that text in the item */
     /* The key is written in files and never printed: what it says is printed by other keys. */
     bool is_unprinted;
-    bool is_of_clip;        /* of a number of seconds: it may be written as "50 %" of the clip */
+    bool is_counted; /* of a map: its entries draw numbers of their own, as those of a list do */
+    bool is_of_clip; /* of a number of seconds: it may be written as "50 %" of the clip */
     const char *instead_of; /* another key of the table, which cannot be given as well; or NULL */
 };
 

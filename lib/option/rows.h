@@ -189,12 +189,14 @@
  * with `const char *name`. */
 #define MAP(part, n, f, rows, count, def, h)                                                       \
     {                                                                                              \
-        ROW_AT(part, n, map,                                                                       \
-               OFFSET_OF_ARRAY(f, rows) +                                                          \
-                   KILN_FIELD_ASSERT(OFFSET_IN(rows##_fills, name, text) == 0,                     \
-                                     "an entry of " #f " does not begin with its name"),           \
-               def, h),                                                                            \
-            .members = rows, .item_size = sizeof(rows##_fills), COUNTED(f, count)                  \
+        MEMBERS_OF_MAP(part, n, f, rows, count, def, h)                                            \
     }
+#define MEMBERS_OF_MAP(part, n, f, rows, count, def, h)                                            \
+    ROW_AT(part, n, map,                                                                           \
+           OFFSET_OF_ARRAY(f, rows) + KILN_FIELD_ASSERT(OFFSET_IN(rows##_fills, name, text) == 0,  \
+                                                        "an entry of " #f                          \
+                                                        " does not begin with its name"),          \
+           def, h),                                                                                \
+        .members = rows, .item_size = sizeof(rows##_fills), COUNTED(f, count)
 
 #endif

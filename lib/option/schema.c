@@ -3,6 +3,8 @@
  * loader checks the order of values and the files that a text names. */
 #include "option/schema.h"
 
+#include <string.h>
+
 #include "option/value_form.h"
 
 /* The texts that stand for a value of any kind in a scene: a parameter, or arithmetic. */
@@ -13,6 +15,8 @@ void kiln_schema_number(const struct kiln_option *option, struct kiln_text *out)
 {
     char units[64], min[32], max[32];
     kiln_unit_pattern(units, option->dimension);
+    if (option->is_of_clip) /* "%" is one more unit */
+        snprintf(units + strlen(units) - 1, sizeof units - strlen(units) + 1, "|%%)");
     kiln_unit_print_number(min, option->min);
     kiln_unit_print_number(max, option->max);
     if (kiln_unit_is_required(option->dimension)) {

@@ -137,11 +137,13 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
     uint32_t *count = begin_entries(reader, option, node, field);
+    const uint32_t outer = reader->item;
     if (!count)
         return false;
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         void *item = (char *)field + *count * option->item_size;
         const char *name = entry->key->text;
+        reader->item = option->is_counted ? *count : outer;
         size_t before = kiln_reader_enter(reader, name);
         if (!kiln_option_is_name(name))
             return refuse_name(reader, entry->key);
@@ -151,6 +153,7 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
         kiln_reader_leave(reader, before);
         ++*count;
     }
+    reader->item = outer;
     return true;
 }
 

@@ -4,9 +4,11 @@
 
 #include <stdint.h>
 
+#include "scene/node.h"
 #include "shared/value.h"
 
 struct kiln_camera {
+    struct kiln_attach attach;           /* position and target lie in this node */
     struct kiln_value3 position, target; /* m */
     struct kiln_value fov;               /* rad, vertical */
     struct kiln_value roll;              /* rad */

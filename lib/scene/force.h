@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "scene/node.h"
 #include "shared/layout.h"
 
 enum kiln_force_kind {
@@ -53,6 +54,7 @@ struct kiln_force_region {
  * read them. */
 struct kiln_force {
     enum kiln_force_kind kind;
+    struct kiln_attach attach; /* attract, vortex: place, axis and radius lie in this node */
     union {
         struct kiln_value3 vector;
         struct kiln_value3 acceleration; /* gravity: m/s^2 */

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "scene/node.h"
 #include "shared/value.h"
 
 enum kiln_light_kind { KILN_LIGHT_POINT, KILN_LIGHT_SPOT, KILN_LIGHT_RECTANGLE };
@@ -11,6 +12,7 @@ enum kiln_light_kind { KILN_LIGHT_POINT, KILN_LIGHT_SPOT, KILN_LIGHT_RECTANGLE }
 struct kiln_light {
     const char *name; /* NULL for an entry of a list */
     enum kiln_light_kind kind;
+    struct kiln_attach attach;   /* the light lies in this node */
     struct kiln_value3 position; /* of the centre, m */
     /* Radiance: of a white surface 1 m in front of a point or a spot; of a rectangle itself. */
     struct kiln_value3 color;

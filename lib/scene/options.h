@@ -12,6 +12,7 @@ extern const struct kiln_option kiln_options_system[];
 extern const struct kiln_option kiln_options_look[];
 extern const struct kiln_option kiln_options_backdrop[];
 extern const struct kiln_option kiln_options_post[];
+extern const struct kiln_option kiln_options_node[];
 extern const struct kiln_option_kind kiln_force_kinds[];
 extern const struct kiln_option_kind kiln_interaction_kinds[];
 
@@ -21,6 +22,7 @@ typedef struct kiln_system kiln_options_system_fills;
 typedef struct kiln_look kiln_options_look_fills;
 typedef struct kiln_backdrop kiln_options_backdrop_fills;
 typedef struct kiln_post kiln_options_post_fills;
+typedef struct kiln_scene_node kiln_options_node_fills;
 typedef struct kiln_force kiln_force_kinds_fills;
 typedef struct kiln_interaction kiln_interaction_kinds_fills;
 
@@ -35,6 +37,9 @@ extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or
 extern const struct kiln_option_type kiln_type_name;         /* a system's name */
 extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a list */
 extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] */
+extern const struct kiln_option_type kiln_type_attach;       /* a node's name, or none */
+extern const struct kiln_option_type kiln_type_place;        /* a vector, or {path: {...}} */
+extern const struct kiln_option_type kiln_type_points;       /* [[0, 0, 0], [1, 0, 0]] */
 extern const struct kiln_option_type kiln_type_duration;     /* 5 s, or none */
 
 /* The C types of their fields (option/option.h). */
@@ -46,6 +51,9 @@ typedef const char *kiln_fills_mesh;
 typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
 typedef const char *kiln_fills_name;
+typedef struct kiln_attach kiln_fills_attach;
+typedef struct kiln_node_position kiln_fills_place;
+typedef struct kiln_path_points kiln_fills_points;
 typedef struct kiln_burst kiln_fills_bursts[];
 typedef uint32_t kiln_fills_counts[2];
 typedef struct kiln_scene kiln_fills_duration; /* its frames */

@@ -23,11 +23,16 @@
             "Particles of systems that collide bounce off it."),                                   \
         SURFACE_FACTORS
 
+#define ATTACHED                                                                                   \
+    ATTACH(IF_OBJECT_IS_ATTACHED,                                                                  \
+           "Node that the object lies in: place, directions and sizes are in its frame.")
+
 #define REFLECTANCE                                                                                \
     COLOR(LOOK, "color", color, 1, TIME(10), "[0.35, 0.34, 0.33]",                                 \
           "Fraction of the incoming light that it reflects.")
 
 TABLE(box) = {
+    ATTACHED,
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(11), "[0, 0.5, 0]",
            "Centre of the box."),
     VECTOR(MOTION, "size", size, KILN_METRES, LEAST_LENGTH, FAR, TIME(12), "[1, 1, 1]",
@@ -42,6 +47,7 @@ TABLE(box) = {
 };
 
 TABLE(sphere) = {
+    ATTACHED,
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(14), "[0, 0.5, 0]",
            "Centre of the sphere."),
     VALUE(MOTION, "radius", radius, KILN_METRES, LEAST_LENGTH, FAR, TIME(15), "0.5 m",
@@ -52,6 +58,7 @@ TABLE(sphere) = {
 };
 
 TABLE(cylinder) = {
+    ATTACHED,
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(16), "[0, 0.5, 0]",
            "Centre of the cylinder."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(17), "[0, 1, 0]",
@@ -66,6 +73,7 @@ TABLE(cylinder) = {
 };
 
 TABLE(capsule) = {
+    ATTACHED,
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(20), "[0, 1, 0]",
            "Centre of the capsule."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(21), "[0, 1, 0]",
@@ -80,6 +88,7 @@ TABLE(capsule) = {
 };
 
 TABLE(cone) = {
+    ATTACHED,
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(24), "[0, 0.5, 0]",
            "Centre of the cone, halfway between its base and its tip."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(25), "[0, 1, 0]",
@@ -94,6 +103,7 @@ TABLE(cone) = {
 };
 
 TABLE(plane) = {
+    ATTACHED,
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME(28), "[0, 0, 0]",
            "A point of the plane. The plane turns about this point."),
     VECTOR(MOTION, "normal", axis, KILN_PLAIN, -FAR, FAR, TIME(29), "[0, 1, 0]",
@@ -162,6 +172,7 @@ TABLE(mesh) = {
     {ROW(MOTION, "file", mesh, file, NULL,
          "An OBJ, glTF, GLB, PLY or STL file of triangles, in metres and y up. Its materials are "
          "not drawn.")},
+    ATTACHED,
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(30), "[0, 0, 0]",
            "Position of the file's origin."),
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME(31),
@@ -280,16 +291,22 @@ ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLE
                 "Smoke dims the light, and objects of the backdrop and solid particles hide it, "  \
                 "except those that contain its centre.")
 
+#define LIGHT_ATTACHED                                                                             \
+    ATTACH(IF_LIGHT_IS_ATTACHED,                                                                   \
+           "Node that the light lies in: place, directions and sizes are in its frame.")
+
 #define LIGHT_DIRECTION                                                                            \
     VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME(37), "[0, -1, 0]",            \
            "Direction in which the light shines, of any length but 0.")
 
 TABLE(point) = {
+    LIGHT_ATTACHED,
     SMALL_LIGHT,
     END,
 };
 
 TABLE(spot) = {
+    LIGHT_ATTACHED,
     SMALL_LIGHT,
     LIGHT_DIRECTION,
     VALUE(LOOK, "angle", angle, KILN_ANGLE, KILN_DEG(1), KILN_DEG(180), TIME(38), "30 deg",
@@ -300,6 +317,7 @@ TABLE(spot) = {
 };
 
 TABLE(rectangle) = {
+    LIGHT_ATTACHED,
     VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME(40), "[0, 2, 0]",
            "Centre of the rectangle."),
     VALUE(LOOK, "width", width, KILN_METRES, LEAST_LENGTH, 1000, TIME(41), "1 m",

@@ -227,6 +227,9 @@ TABLE(emit_options) = {
           "Speed of a particle along its direction. The value is drawn at its birth."),
     KIND(MOTION, "from", shapes, shape, "{point: {}}",
          "The shape in which particles are born, and the directions in which they start."),
+    ATTACH(IF_EMITTER_IS_ATTACHED,
+           "Node that `from` lies in: its place, directions and sizes are in the node's frame. "
+           "Births are spread along the node's way. Speeds stay those of the world."),
     VALUE(MOTION, "inherit", inherit, KILN_FRACTION, 0, 1, BIRTH(15), "0",
           "Fraction of the velocity of the emitter, or of the parent's particle, that a particle "
           "gets at its birth."),

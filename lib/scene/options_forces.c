@@ -118,7 +118,13 @@ static const char *const falloffs[] = {
     NULL,
 };
 
+#define ATTACHED                                                                                   \
+    ATTACH(IF_FORCE_IS_ATTACHED,                                                                   \
+           "Node that the force lies in: place, axis and radius are in its frame. Speeds and "     \
+           "accelerations stay those of the world.")
+
 TABLE(attract) = {
+    ATTACHED,
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(57), "[0, 0, 0]",
            "Point that particles are drawn to."),
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, LIFE(58), "1 m/s^2",
@@ -143,6 +149,7 @@ static const char *const profiles[] = {
 };
 
 TABLE(vortex) = {
+    ATTACHED,
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(60), "[0, 0, 0]",
            "A point of the axis."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(61), "[0, 1, 0]",

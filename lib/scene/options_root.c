@@ -19,6 +19,10 @@ TABLE(shutter) = {
 };
 
 TABLE(camera) = {
+    ATTACH(
+        IF_CAMERA_IS_ATTACHED,
+        "Node that the camera lies in. `position` and `target` are then in the node's frame, and "
+        "the node's y is up; without them, the camera is in the node and looks along its z."),
     VECTOR(VIEW, "position", position, KILN_METRES, -FAR, FAR, TIME(1), "[0, 1.5, 6]",
            "Position of the eye."),
     VECTOR(VIEW, "target", target, KILN_METRES, -FAR, FAR, TIME(2), "[0, 1, 0]",
@@ -109,6 +113,10 @@ PUBLIC_TABLE(kiln_options_root) = {
             "Another seed gives another run of the same scene."),
     GROUP(VIEW, "output", output, "The clip."),
     GROUP(MOTION, "simulation", simulation, "The clock of the simulation."),
+    {MEMBERS_OF_MAP(OF_NODES, "nodes", nodes, kiln_options_node, node_count, "{}",
+                    "Places that move and turn, by their names. The camera, emitters, objects and "
+                    "lights may be attached to them."),
+     .is_counted = true},
     GROUP_AT(VIEW, "camera", camera, camera, "The camera that takes the pictures."),
     GROUP_AT(MOTION, "backdrop", backdrop, kiln_options_backdrop,
              "Sky, sun, floor, objects and lights around the particles."),

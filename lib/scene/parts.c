@@ -121,3 +121,78 @@ unsigned kiln_row_if_impacts_count(const void *scene, const void *emit)
     (void)scene;
     return ((const struct kiln_emitter *)emit)->parent.impact ? BOTH : 0;
 }
+
+unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter)
+{
+    (void)scene;
+    return ((const struct kiln_emitter *)emitter)->attach.name ? BOTH : 0;
+}
+
+unsigned kiln_row_if_force_is_attached(const void *scene, const void *force)
+{
+    (void)scene;
+    return ((const struct kiln_force *)force)->attach.name ? BOTH : 0;
+}
+
+unsigned kiln_row_if_object_is_attached(const void *scene, const void *object)
+{
+    (void)scene;
+    return ((const struct kiln_object *)object)->attach.name ? BOTH : 0;
+}
+
+unsigned kiln_row_if_light_is_attached(const void *scene, const void *light)
+{
+    (void)scene;
+    return ((const struct kiln_light *)light)->attach.name ? NEITHER : 0;
+}
+
+unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera)
+{
+    (void)scene;
+    return ((const struct kiln_camera *)camera)->attach.name ? KILN_PART_HASHED | KILN_PART_VIEW
+                                                             : 0;
+}
+
+static bool is_carried(const struct kiln_scene *scene, uint32_t node,
+                       const struct kiln_attach *attach)
+{
+    return attach->name && kiln_node_carries(scene, node, attach->node);
+}
+
+static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
+                            const struct kiln_system *system)
+{
+    bool moves = is_carried(scene, node, &system->emit.attach);
+    for (uint32_t i = 0; i < system->force_count; i++)
+        moves = moves || is_carried(scene, node, &system->forces[i].attach);
+    return moves;
+}
+
+static unsigned parts_of_node(const struct kiln_scene *scene, uint32_t node)
+{
+    unsigned parts = NEITHER;
+    if (is_carried(scene, node, &scene->camera.attach))
+        parts |= KILN_PART_VIEW;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        parts |= moves_particles(scene, node, &scene->systems[i]) ? BOTH : 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        parts |= is_carried(scene, node, &scene->backdrop.objects[i].attach) ? BOTH : 0;
+    return parts;
+}
+
+unsigned kiln_row_of_node(const void *scene, const void *inside)
+{
+    const struct kiln_scene *in = scene;
+    const size_t offset = (size_t)((const char *)inside - (const char *)in->nodes);
+    return parts_of_node(in, (uint32_t)(offset / sizeof *in->nodes));
+}
+
+unsigned kiln_row_of_nodes(const void *scene, const void *base)
+{
+    const struct kiln_scene *in = scene;
+    unsigned parts = 0;
+    (void)base;
+    for (uint32_t i = 0; i < in->node_count; i++)
+        parts |= parts_of_node(in, i);
+    return parts;
+}

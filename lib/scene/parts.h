@@ -38,6 +38,19 @@ unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
 
 /* Returns the bits of all parts if deaths of parents at impacts count, and otherwise 0. */
 unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
+/* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
+ * kiln_force, kiln_object, kiln_light or kiln_camera. */
+unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
+unsigned kiln_row_if_force_is_attached(const void *scene, const void *force);
+unsigned kiln_row_if_object_is_attached(const void *scene, const void *object);
+unsigned kiln_row_if_light_is_attached(const void *scene, const void *light);
+unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera);
+
+/* Returns the bits of what is attached to a node, or to nodes that lie in it. base is a struct
+ * kiln_scene_node, or a struct within one. */
+unsigned kiln_row_of_node(const void *scene, const void *inside);
+/* Returns the bits of all nodes together; 0 if there are none. */
+unsigned kiln_row_of_nodes(const void *scene, const void *base);
 
 /* Returns the bits of all parts if a system's seed is not its place, and otherwise 0. */
 unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
@@ -54,5 +67,12 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_STOPS                 kiln_row_if_stops
 #define IF_IMPACTS_COUNT         kiln_row_if_impacts_count
 #define IF_NOT_CERTAIN           kiln_row_if_not_certain
+#define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
+#define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached
+#define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached
+#define IF_LIGHT_IS_ATTACHED     kiln_row_if_light_is_attached
+#define IF_CAMERA_IS_ATTACHED    kiln_row_if_camera_is_attached
+#define OF_NODE                  kiln_row_of_node
+#define OF_NODES                 kiln_row_of_nodes
 
 #endif

@@ -5,6 +5,7 @@
  *   MOTION  the key changes how particles move, so states that were saved with another value of it
  *           are not used; unit.motion checks that it does
  *   LOOK    the key changes pictures alone
+ *   OF_NODE the key changes what is attached to the node
  *   VIEW    the key changes where the camera sees particles, or at which moments
  * A row says how its value may vary (option/rows.h), with a number of its own:
  *   TIME      it is the same for all particles of a system at a time
@@ -32,6 +33,12 @@
 #define BOUNDS(part, n, f, def, h)                                                                 \
     {                                                                                              \
         ROW(part, n, bounds, f, def, h), LIMITS(KILN_METRES, -FAR, FAR), .special_word = "none"    \
+    }
+
+/* The node that a part of the scene lies in: part, help */
+#define ATTACH(part, h)                                                                            \
+    {                                                                                              \
+        ROW(part, "attach", attach, attach, "none", h), .special_word = "none"                     \
     }
 
 #endif

@@ -83,8 +83,8 @@ bool kiln_object_is_oriented_box(const struct kiln_object *object)
 {
     const struct kiln_value3 *r = &object->rotation;
     return object->kind == KILN_OBJECT_BOX &&
-           (!kiln_value3_is_constant(r) || r->x.constant != 0.0f || r->y.constant != 0.0f ||
-            r->z.constant != 0.0f);
+           (object->attach.name || !kiln_value3_is_constant(r) || r->x.constant != 0.0f ||
+            r->y.constant != 0.0f || r->z.constant != 0.0f);
 }
 
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value)
@@ -100,9 +100,10 @@ float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_val
 bool kiln_scene_view_stands(const struct kiln_scene *scene)
 {
     const struct kiln_camera *camera = &scene->camera;
-    return scene->pixel_samples == 1 && kiln_value3_is_constant(&camera->position) &&
-           kiln_value3_is_constant(&camera->target) && camera->fov.count == 0 &&
-           camera->roll.count == 0 && camera->near_plane.count == 0 &&
+    return scene->pixel_samples == 1 &&
+           (!camera->attach.name || kiln_node_stands(scene, camera->attach.node)) &&
+           kiln_value3_is_constant(&camera->position) && kiln_value3_is_constant(&camera->target) &&
+           camera->fov.count == 0 && camera->roll.count == 0 && camera->near_plane.count == 0 &&
            !(kiln_scene_value_max(scene, &camera->aperture) > 0.0f);
 }
 

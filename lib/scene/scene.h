@@ -15,9 +15,13 @@
 #include "option/values.h"
 #include "particles/births.h"
 #include "scene/camera.h"
+#include "scene/collide.h"
+#include "scene/emitter.h"
 #include "scene/force.h"
 #include "scene/interaction.h"
 #include "scene/light.h"
+#include "scene/look.h"
+#include "scene/node.h"
 #include "scene/pattern.h"
 #include "scene/post.h"
 #include "shared/draw_layout.h"
@@ -39,232 +43,12 @@ enum {
     KILN_MAX_INSTANCE_TRIANGLES = 1 << 26, /* triangles of all slots together */
 };
 
-/* ---- emit: Heinz 2019, 2.1.2; births are spread inside the step ------------------------------ */
-
-enum kiln_emitter_shape {
-    KILN_EMITTER_POINT,
-    KILN_EMITTER_SPHERE,
-    KILN_EMITTER_BOX,
-    KILN_EMITTER_DISC,
-    KILN_EMITTER_CONE,
-    KILN_EMITTER_LINE,
-    KILN_EMITTER_RING, /* the rim of a disc */
-};
-
-enum kiln_event {
-    KILN_EVENT_DEATH,  /* the end of the parent's life */
-    KILN_EVENT_BOUNCE, /* the parent's first impact */
-    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly */
-};
-
-enum kiln_align {
-    KILN_ALIGN_WORLD,    /* the shape keeps the axes of the world */
-    KILN_ALIGN_VELOCITY, /* its y axis turns to the parent's direction of flight */
-    KILN_ALIGN_NORMAL,   /* its y axis turns to the normal of the surface that the parent hit */
-};
-
-/* Births of particles from particles of another system: shared/family.h. */
-struct kiln_parent {
-    bool enabled;
-    const char *name;
-    uint32_t system; /* index of that system */
-    enum kiln_event event;
-    enum kiln_align align;
-    uint32_t count[2];      /* death, bounce: the fewest and the most children of one parent */
-    bool impact;            /* death: a death at an impact counts as well */
-    struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
-    uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
-};
-
-struct kiln_emitter {
-    struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
-    struct kiln_value rate;    /* particles a second; clock constant or time */
-    struct kiln_burst bursts[KILN_MAX_BURSTS];
-    uint32_t burst_count;
-    struct kiln_range life;  /* s, at birth */
-    struct kiln_range speed; /* m/s, at birth */
-    enum kiln_emitter_shape shape;
-    struct kiln_value3 origin;    /* m: centre of the shape, apex disc's centre of a cone */
-    struct kiln_value3 direction; /* need not be normalised; not zero unless outward */
-    struct kiln_value angle;      /* rad: half angle of the directions about `direction`, 0..pi */
-    bool outward;                 /* sphere: directions point away from the origin instead */
-    bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
-    struct kiln_value radius;     /* m: sphere, disc, base of the cone */
-    struct kiln_value3 size;      /* m: box, full edges; line, from its first end to its last */
-    uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
-    struct kiln_value turn;       /* rad/s: of the shape about its direction */
-    struct kiln_value inherit;    /* part of the velocity of emitter or parent */
-};
-
 enum kiln_integration {
     KILN_INTEGRATE_SEMI_IMPLICIT,  /* velocity, then position */
     KILN_INTEGRATE_POSITION_FIRST, /* the thesis's order: position, then velocity (3.3.2) */
     KILN_INTEGRATE_TRAPEZOID,      /* second order: as in UberFlow 2004, 4.2 (shared/stages.h) */
     KILN_INTEGRATE_RK4,            /* fourth order */
 };
-
-/* ---- collide: Heinz 2019, 3.5 ---------------------------------------------------------------- */
-
-enum kiln_collide_mode {
-    KILN_COLLIDE_SWEPT, /* exact point of impact along the path of the step */
-    KILN_COLLIDE_CLAMP, /* the thesis: a position inside is clamped to the nearest face */
-};
-
-/* What an impact does to a particle. */
-enum kiln_then {
-    KILN_THEN_BOUNCE,
-    KILN_THEN_DIE,
-    KILN_THEN_STOP, /* it rests in the world where it hit, until its life ends */
-};
-
-struct kiln_collide {
-    bool enabled;
-    bool dies; /* the same as KILN_THEN_DIE, by the key of older scenes */
-    enum kiln_then then;
-    struct kiln_value chance; /* 0..1: of the first impact in a step to do what `then` says */
-    enum kiln_collide_mode mode;
-    struct kiln_value randomness;  /* 0 mirror .. 1 any direction of the hemisphere */
-    struct kiln_value slowdown;    /* factor on the speed, 0..1 */
-    struct kiln_value restitution; /* 0..1: of the speed along the normal */
-    struct kiln_value friction;    /* Coulomb's coefficient */
-};
-
-/* ---- paint: Drone 2007, 7.6.1 ---------------------------------------------------------------- */
-
-enum kiln_paint_when {
-    KILN_PAINT_IMPACT, /* at the place of the first impact of a step */
-    KILN_PAINT_NEAR,   /* as in the paper: at the particle's place at the end of a step */
-};
-
-/* The splats that particles leave on meshes that take paint, in look.color. */
-struct kiln_painting {
-    bool enabled;
-    enum kiln_paint_when when;
-    struct kiln_range radius;  /* m */
-    struct kiln_value opacity; /* 0..1: opacity in the middle */
-    struct kiln_value soft;    /* 0..1: outer part of the radius over which it fades */
-};
-
-/* ---- look ------------------------------------------------------------------------------------ */
-
-enum kiln_blend {
-    KILN_BLEND_ALPHA, /* premultiplied "over": smoke */
-    KILN_BLEND_ADD,   /* adds light and covers nothing: fire */
-};
-
-enum kiln_shape {
-    KILN_SHAPE_BILLBOARD,
-    KILN_SHAPE_POINT,  /* a disc or a square without a texture */
-    KILN_SHAPE_LINE,   /* from the particle back along its path */
-    KILN_SHAPE_SPHERE, /* opaque, lit like the backdrop */
-    KILN_SHAPE_MESH,   /* a mesh from a file, opaque, lit like the backdrop */
-};
-
-/* How a mesh that is a particle is oriented. Its own z axis is ahead and y is up. */
-enum kiln_orient {
-    KILN_ORIENT_VELOCITY, /* ahead is the velocity, up near to the world's */
-    KILN_ORIENT_SPIN,     /* turned by collisions, or about a random axis */
-    KILN_ORIENT_UPRIGHT,  /* turned about the world's up */
-};
-
-/* The mesh that particles of a system are drawn as. "follows": filled when shape is mesh. */
-struct kiln_look_mesh {
-    const char *file; /* an absolute path; NULL: none */
-    enum kiln_orient orient;
-    const struct kiln_mesh *shown; /* follows: the content of the file */
-    /* follows: radius, in sizes, of a sphere whose shadow is as large as the mesh's mean shadow */
-    float shade;
-};
-
-/* How a billboard stands to the camera (Heinz 2019, 2.1.1). */
-enum kiln_facing {
-    KILN_FACING_SCREEN,    /* parallel to the picture, up is the picture's */
-    KILN_FACING_VIEWPLANE, /* parallel to the picture, up is the world's */
-    KILN_FACING_VIEWPOINT, /* turned to the eye, up is the world's */
-    KILN_FACING_AXIAL,     /* turned to the eye about an axis, which is up */
-    KILN_FACING_VELOCITY,  /* parallel to the picture, up is the direction of flight */
-};
-
-enum kiln_line_to {
-    KILN_LINE_VELOCITY, /* back along the velocity by speed * stretch */
-    KILN_LINE_PREVIOUS, /* to where the particle was a frame ago */
-};
-
-enum kiln_soft_formula {
-    KILN_SOFT_CLAMPED, /* clamp((scene - particle) * s, 0, 1) */
-    KILN_SOFT_LITERAL, /* abs(scene - distance of the particle) * s, as printed (Heinz 2019, 3.3) */
-};
-
-enum kiln_motion_green {
-    KILN_GREEN_AUTO, /* as the layout of the flipbook says; up without one */
-    KILN_GREEN_UP,
-    KILN_GREEN_DOWN,
-};
-
-/* Holds the motion that full red and full green of a motion file stand for, in edges of a cell. */
-struct kiln_motion_scale {
-    bool given; /* false: as the layout of the flipbook says; 1 without one */
-    double right, up;
-};
-
-struct kiln_look {
-    const char *atlas[KILN_MAX_TEXTURES]; /* "builtin:NAME" or absolute file paths, of which each */
-    uint32_t atlas_count;                 /* particle gets one */
-    union {                               /* cells of each atlas; an option fills both at once */
-        uint32_t cells[2];
-        struct {
-            uint32_t columns, rows;
-        };
-    };
-    const char *motion; /* "none", "auto" (of built-in atlases) or an absolute file path */
-    enum kiln_motion_green motion_green;
-    struct kiln_motion_scale motion_scale;
-    /* follow from the above and the layout: the motion to the right and up, in edges of a cell,
-     * that the file's full red and green stand for; the layout's absolute path, or NULL: none was
-     * read */
-    float motion_full[2];
-    const char *motion_layout;
-    enum kiln_blend blend;
-    struct kiln_value size;  /* m: edge of the billboard */
-    struct kiln_range scale; /* factor on size, random for each particle */
-    enum kiln_shape shape;
-    enum kiln_facing facing;      /* of a billboard: how it faces the camera */
-    struct kiln_value3 axis;      /* axis of an axial billboard; need not be normalised, not zero */
-    struct kiln_value point_size; /* px: diameter of a point; 0: size, in metres */
-    bool point_round;             /* true: a disc; false: a square */
-    struct kiln_value line_width; /* px */
-    enum kiln_line_to line_to;
-    struct kiln_look_sphere sphere;
-    struct kiln_look_mesh mesh;
-    /* s: a billboard is longer along the velocity by speed * stretch; 0: square */
-    struct kiln_value stretch;
-    bool stretch_dims;                   /* of a billboard: it is as much fainter as longer */
-    struct kiln_range rotation;          /* rad at birth */
-    struct kiln_range spin;              /* rad/s; the sign is random for each particle */
-    struct kiln_value cycles;            /* passes through the atlas in one life */
-    bool random_start;                   /* each particle starts at a cell of its own */
-    struct kiln_value3 color;            /* linear; multiplies the atlas or the blackbody colour */
-    struct kiln_value opacity;           /* 0..1 */
-    struct kiln_value temperature;       /* K: blackbody colour; 0: none */
-    struct kiln_value intensity;         /* factor on emitted light */
-    struct kiln_value fade_in, fade_out; /* parts of the life over which opacity rises and falls */
-    struct kiln_value soft;              /* 1/m: softness by equation 3.3; 0: hard edges */
-    enum kiln_soft_formula soft_formula;
-    struct kiln_value thickness; /* in units of size, for KILN_COMPOSE_OIT */
-    struct kiln_value near_fade; /* m: fades over this distance to the near plane */
-    struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
-    struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
-    struct kiln_value shadow;    /* of particles that cover: factor on the shadow that they cast */
-    struct kiln_value3 light;    /* factor on the light that they shed on other objects; 0: none */
-    uint32_t light_count;        /* number of point lights for that light */
-    bool light_shadow;           /* objects hide them */
-};
-
-/* Returns whether particles are solid, with other particles in front of or behind them. */
-static inline bool kiln_look_is_opaque(const struct kiln_look *look)
-{
-    return look->shape == KILN_SHAPE_SPHERE || look->shape == KILN_SHAPE_MESH;
-}
 
 /* ---- systems --------------------------------------------------------------------------------- */
 
@@ -349,6 +133,7 @@ struct kiln_object_paint {
 struct kiln_object {
     const char *name; /* NULL for an entry of a list */
     enum kiln_object_kind kind;
+    struct kiln_attach attach; /* the object lies in this node; not of terrain */
     /* m; mesh: place of its file's origin; terrain: middle and lowest height, constant */
     struct kiln_value3 center;
     struct kiln_value3 color;    /* albedo */
@@ -459,6 +244,8 @@ struct kiln_scene {
     struct kiln_bounds bounds; /* bounds of systems without their own; copied to them */
     float dt_s;                /* 1 / rate, rounded once */
 
+    struct kiln_scene_node nodes[KILN_MAX_NODES];
+    uint32_t node_count;
     struct kiln_camera camera;
     struct kiln_backdrop backdrop;
     struct kiln_system systems[KILN_MAX_SYSTEMS];
@@ -519,7 +306,7 @@ bool kiln_value3_is_constant(const struct kiln_value3 *value);
 /* Returns whether both ends of a range are one value, with the same keys if it has any. */
 bool kiln_range_is_one_value(const struct kiln_range *range);
 
-/* Returns whether an object is a box that has a rotation at any time. */
+/* Returns whether an object is a box that has a rotation at any time, or lies in a node. */
 bool kiln_object_is_oriented_box(const struct kiln_object *object);
 
 /* Return limits that a value never goes over, or below (kiln_value_most). */

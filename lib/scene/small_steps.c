@@ -9,8 +9,9 @@
  *
  * The speed that is compared is an estimate from above: births, air and accelerations are added, as
  * if all had one direction. Of a range of speeds at birth, it takes the value that a quarter of the
- * births stay below. Nothing is said where the speed is not known before the run: with grids of
- * air, points of attraction, regions of forces, interactions, or an inherited velocity. */
+ * births stay below. Nothing is said where the speed or the place is not known before the run: with
+ * grids of air, points of attraction, regions of forces, interactions, an inherited velocity, or an
+ * emitter that is attached to a node. */
 #include "scene/small_steps.h"
 
 #include <math.h>
@@ -197,7 +198,7 @@ void kiln_small_steps_warn(struct kiln_reader *reader, const struct kiln_node *r
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled)
+        if (scene->systems[i].enabled && !scene->systems[i].emit.attach.name)
             check_system(reader, root, &scene->systems[i]);
     }
 }

@@ -14,6 +14,7 @@
 #include "scene/instant.h"
 #include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
+#include "scene/node_settle.h"
 #include "scene/object_mesh.h"
 #include "scene/options.h"
 #include "scene/particle_mesh.h"
@@ -577,8 +578,9 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
 bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
 {
     settle_seeds(reader, root);
-    return settle_clock(reader, root) && check_camera(reader, root) &&
-           check_backdrop(reader, root) && check_systems(reader, root) &&
-           kiln_family_settle(reader, root) && settle_capacity(reader, root) &&
-           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root);
+    return settle_clock(reader, root) && kiln_nodes_settle(reader, root) &&
+           check_camera(reader, root) && check_backdrop(reader, root) &&
+           check_systems(reader, root) && kiln_family_settle(reader, root) &&
+           settle_capacity(reader, root) && kiln_particle_mesh_count(reader, root) &&
+           kiln_samples_settle(reader, root);
 }

@@ -138,6 +138,9 @@ bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root,
     const uint64_t read = counts ? (uint64_t)counts->parsed + counts->copied : 0;
     const uint64_t left = count_nodes(root), nodes = read > left ? read : left;
     kiln_footprint_add(&footprint, KILN_FOOTPRINT_PARTICLES, nodes, NODE_BYTES);
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        kiln_footprint_add(&footprint, KILN_FOOTPRINT_PARTICLES, 1,
+                           kiln_path_bytes(&scene->nodes[i].position.path));
     if (estimate)
         estimate(scene, &footprint);
     scene->memory_bytes = PROGRAM_BYTES + kiln_footprint_total(&footprint);

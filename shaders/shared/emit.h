@@ -116,8 +116,18 @@ struct emit_state {
     float3 velocity; /* m/s */
 };
 
-/* Returns a birth at a clip time as the shape says, from an emitter at rest. */
-FN S(emit_state) emit_at_rest(SIM_PARAM S(value_clocks) clocks, uint serial)
+/* Returns the metres in one unit of the shape's frame, after the part u of the step. */
+FN float emit_scale(SIM_PARAM float u)
+{
+    if (!(USES(USES_EMITTERS, EMIT_ATTACHED) && STEP(emit.attached) != 0u))
+        return 1.0f;
+    EXACT float scale = STEP(emit.frame.start.w) + u * STEP(emit.frame.linear.w);
+    return scale;
+}
+
+/* Returns a birth at a clip time as the shape says, from an emitter at rest. The place is in the
+ * shape's frame, the velocity in m/s. */
+FN S(emit_state) emit_at_rest(SIM_PARAM S(value_clocks) clocks, uint serial, float scale)
 {
     EXACT S(emit_place) place = emit_place_at(SIM clocks, serial);
     EXACT float slowest = VALUE_OF(KEYED_SPEED, SIM_KEYS STEP(emit.speed.min), clocks);
@@ -126,25 +136,66 @@ FN S(emit_state) emit_at_rest(SIM_PARAM S(value_clocks) clocks, uint serial)
     EXACT float3 origin = VALUE3_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin), clocks);
     EXACT S(emit_state) born;
     born.position = float3_add(origin, place.offset);
-    EXACT float turn = VALUE_OF(KEYED_TURN, SIM_KEYS STEP(emit.turn), clocks);
+    EXACT float turn = VALUE_OF(KEYED_TURN, SIM_KEYS STEP(emit.turn), clocks) * scale;
     EXACT float3 around = float3_cross(place.axis, place.offset);
     EXACT float3 thrown = float3_scale(place.direction, speed);
     born.velocity = float3_add_scaled(thrown, around, turn);
     return born;
 }
 
-/* Returns place and velocity of a particle born at a clip time. */
-FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
+/* Takes a birth from the frame of the emitter's node to the world, after the part u of the step.
+ * inherit: the part of the frame's velocity at that place which the particle gets. */
+FN S(emit_state) emit_from_node(SIM_PARAM S(emit_state) own, float inherit, float u, float scale)
+{
+    EXACT S(kiln_emit_frame) frame = STEP(emit.frame);
+    EXACT float3 start = FLOAT3(frame.start.x, frame.start.y, frame.start.z);
+    EXACT float3 linear = FLOAT3(frame.linear.x, frame.linear.y, frame.linear.z);
+    EXACT float3 square = FLOAT3(frame.square.x, frame.square.y, frame.square.z);
+    EXACT float3 cube = FLOAT3(frame.cube.x, frame.cube.y, frame.cube.z);
+    EXACT float3 inner = float3_add_scaled(square, cube, u);
+    EXACT float3 middle = float3_add_scaled(linear, inner, u);
+    EXACT float3 origin = float3_add_scaled(start, middle, u);
+    EXACT float3 cubes = float3_scale(cube, 3.0f);
+    EXACT float3 squares = float3_add(square, square);
+    EXACT float3 rates = float3_add_scaled(squares, cubes, u);
+    EXACT float3 moved = float3_add_scaled(linear, rates, u);
+
+    EXACT S(exact_angle) half_turn = exact_sincos(0.5f * (u * frame.spin.w));
+    EXACT float3 axis = FLOAT3(frame.spin.x, frame.spin.y, frame.spin.z);
+    EXACT float3 sines = float3_scale(axis, half_turn.sine);
+    EXACT float4 turn = FLOAT4(sines.x, sines.y, sines.z, half_turn.cosine);
+    EXACT float3 at_start = float3_turn(frame.pose, own.position);
+    EXACT float3 outwards = float3_turn(turn, at_start);
+    EXACT float3 offset = float3_scale(outwards, scale);
+    EXACT float3 thrown_at_start = float3_turn(frame.pose, own.velocity);
+    EXACT float3 thrown = float3_turn(turn, thrown_at_start);
+
+    EXACT float3 across = float3_cross(axis, offset);
+    moved = float3_add_scaled(moved, across, frame.spin.w);
+    moved = float3_add_scaled(moved, outwards, frame.linear.w);
+    EXACT float part = inherit * frame.square.w;
+    EXACT S(emit_state) born;
+    born.position = float3_add(origin, offset);
+    born.velocity = float3_add_scaled(thrown, moved, part);
+    return born;
+}
+
+/* Returns place and velocity of a particle born at a clip time, after the part u of the step. */
+FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s, float u)
 {
     EXACT S(value_clocks) clocks =
         value_clocks_of_birth(time_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
-    EXACT S(emit_state) born = emit_at_rest(SIM clocks, serial);
+    EXACT float scale = emit_scale(SIM u);
+    EXACT S(emit_state) born = emit_at_rest(SIM clocks, serial, scale);
     EXACT float3 origin_rate =
         FLOAT3(VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.x), clocks),
                VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.y), clocks),
                VALUE_RATE_OF(KEYED_ORIGIN, SIM_KEYS STEP(emit.origin.z), clocks));
     EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), clocks);
-    born.velocity = float3_add_scaled(born.velocity, origin_rate, inherit);
+    EXACT float of_origin = inherit * scale;
+    born.velocity = float3_add_scaled(born.velocity, origin_rate, of_origin);
+    if (USES(USES_EMITTERS, EMIT_ATTACHED) && STEP(emit.attached) != 0u)
+        born = emit_from_node(SIM born, inherit, u, scale);
     return born;
 }
 
@@ -165,7 +216,7 @@ FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(
 {
     EXACT S(value_clocks) clocks =
         value_clocks_of_birth(time_s, STEP(derived.random_key), STEP(derived.scene_key), stream);
-    EXACT S(emit_state) own = emit_at_rest(SIM clocks, serial);
+    EXACT S(emit_state) own = emit_at_rest(SIM clocks, serial, 1.0f);
     EXACT float inherit = VALUE_OF(KEYED_INHERIT, SIM_KEYS STEP(emit.inherit), clocks);
     EXACT float3 offset = emit_rotate(own.position, axis);
     EXACT float3 thrown = emit_rotate(own.velocity, axis);

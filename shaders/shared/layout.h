@@ -36,6 +36,20 @@ struct kiln_derived_params {
 #define EMIT_CONE   4u
 #define EMIT_LINE   5u
 
+/* The bit of USES_EMITTERS for emitters that lie in nodes. */
+#define EMIT_ATTACHED 31u
+
+/* The frame of the node that an emitter lies in, during a step. After the part u of the step, its
+ * place is a cubic of u, and it has turned by u times the angle of `spin`. */
+struct kiln_emit_frame {
+    float4 start;  /* m: place at u = 0; w: the scale there */
+    float4 linear; /* m: factor of u; w: how much the scale grows in the step */
+    float4 square; /* m: factor of u^2; w: steps a second */
+    float4 cube;   /* m: factor of u^3 */
+    float4 pose;   /* from the frame to the world at the start: a unit quaternion */
+    float4 spin;   /* unit axis; w: the angle by which the step turns the frame, rad */
+};
+
 struct kiln_emit_params {
     uint shape;
     uint outward;
@@ -49,6 +63,9 @@ struct kiln_emit_params {
     S(kiln_value) radius;
     S(kiln_value) inherit;
     S(kiln_value) turn;
+    uint attached; /* 1: the emitter lies in `frame` */
+    uint unused0, unused1, unused2;
+    S(kiln_emit_frame) frame;
 };
 
 #define FORCE_GRAVITY 0u

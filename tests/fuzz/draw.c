@@ -221,7 +221,7 @@ static void add_choice(struct choice *c, const struct kiln_option *row)
     add_one(c, (const char *const[]){__VA_ARGS__},                                                 \
             sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *))
 
-/* Adds the value of a type that names something; false: the type is another. */
+/* Adds the value of a type that names something, or lists points; false: the type is another. */
 static bool add_name(struct choice *c, const struct kiln_option *row)
 {
     const struct kiln_option_type *type = row->type;
@@ -243,6 +243,14 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "a", "b");
     else if (type == &kiln_type_counts)
         ADD_ONE(c, "1", "6", "[1, 6]");
+    else if (type == &kiln_type_attach && strcmp(row->name, "parent") == 0)
+        ADD_ONE(c, "none"); /* others would often be a ring */
+    else if (type == &kiln_type_attach)
+        ADD_ONE(c, "a", "none");
+    else if (type == &kiln_type_points)
+        ADD_ONE(c, "[[0, 0, 0], [1, 1, 0], [0, 1, 1]]",
+                "[[-100000, 0, 0], [100000, 0, 0], [0, 100000, 0]]",
+                "[[0, 0, 0], [0.00001, 0, 0], [0, 0, 0], [9, 9, 9]]");
     else if (type == &kiln_type_bursts)
         ADD_ONE(c, "{0 s: 9}", "{0 s: 1, 0.01 s: 30}",
                 "[{at: 0 s, count: [0, 9], every: 0.01 s, most: 5, jitter: 0.01 s}]");
@@ -335,6 +343,15 @@ static void add_nested(struct choice *c, const struct kiln_option *row, int dept
         add_members(c, row->members, depth); /* a group or a switch */
 }
 
+/* Adds a position of a node: a vector, or a path. */
+static void add_place(struct choice *c, const struct kiln_option *row, int depth)
+{
+    if (take(c) % 2)
+        add_members(c, row->members, depth);
+    else
+        add_animated(c, row, 3);
+}
+
 static void add_value(struct choice *c, const struct kiln_option *row, int depth)
 {
     const struct kiln_option_type *type = row->type;
@@ -352,8 +369,12 @@ static void add_value(struct choice *c, const struct kiln_option *row, int depth
         add_animated(c, row, 1);
     else if (type == &kiln_type_vector || type == &kiln_type_color)
         add_animated(c, row, 3);
+    else if (type == &kiln_type_range && row->is_of_clip)
+        ADD_ONE(c, "[0 s, 0.1 s]", "[-100000 s, 1000000 s]");
     else if (type == &kiln_type_range)
         add_range(c, row);
+    else if (type == &kiln_type_place)
+        add_place(c, row, depth);
     else if (type == &kiln_type_bounds)
         add_bounds(c, row);
     else if (!add_name(c, row))

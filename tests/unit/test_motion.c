@@ -308,6 +308,8 @@ static void every_row_tells_the_truth(void **state)
         {"mutation/shapes", "motion/shapes", true},
         {"mutation/turned", "mutation/turned", false},
         {"mutation/turned", "motion/turned", true},
+        {"mutation/nodes", "mutation/nodes", false},
+        {"mutation/nodes", "motion/nodes", true},
         {"motion/surfaces", "motion/surfaces", false},
         {"motion/rest", "motion/rest", false},
     };
@@ -321,8 +323,10 @@ static void every_row_tells_the_truth(void **state)
         if (is_group || one_value) /* nothing about it can be changed */
             continue;
         /* A row of the view may change the state by way of another row: rate: auto. */
-        const bool looks = seen->row->parts == kiln_row_look;
-        const bool moves = !looks && seen->row->parts != kiln_row_view;
+        const bool looks =
+            seen->row->parts == kiln_row_look || seen->row->parts == kiln_row_if_light_is_attached;
+        const bool moves = !looks && seen->row->parts != kiln_row_view &&
+                           seen->row->parts != kiln_row_if_camera_is_attached;
         if (!seen->changed)
             fprintf(stderr, "%s: no fixture changes it\n", seen->path);
         else if (looks && seen->changed_state)

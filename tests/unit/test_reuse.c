@@ -75,9 +75,9 @@ static const struct bad bad_aliases[] = {
      "camera: {roll: *n}\n",
      ":2:10: camera.roll: an angle needs its unit: 5 deg or 5 rad; repeated by the alias at "
      "test.yaml:3:16"},
-    {"kiln: 1\n<<: {seed: 1, x: 2}\n",
-     ":2:15: x: unknown key (there are: kiln, include, params, seed, output, simulation, camera, "
-     "backdrop, systems, post)"},
+    {"kiln: 1\n<<: {seed: 1, x: 2}\n", ":2:15: x: unknown key (there are: kiln, include, params, "
+                                       "seed, output, simulation, nodes, camera, "
+                                       "backdrop, systems, post)"},
 };
 
 static void aliases_fail(void **state)

@@ -72,7 +72,17 @@ static void every_key_of_the_clip_arrives(void **state)
     assert_true(scene->camera.near_plane.constant == 0.01f);
     assert_true(scene->camera.target.x.constant == 2 && scene->camera.target.y.count == 2);
     assert_true(scene->camera.roll.constant == -pi / 60);
+    assert_int_equal(scene->camera.attach.node, 1);
 
+    assert_int_equal(scene->node_count, 2);
+    const struct kiln_scene_node *hub = &scene->nodes[0], *arm = &scene->nodes[1];
+    assert_true(!hub->parent.name && hub->position.value.y.count == 2);
+    assert_true(hub->rotation.y.count == 2 && hub->scale.count == 2);
+    assert_true(arm->parent.name && arm->parent.node == 0);
+    const struct kiln_path *path = &arm->position.path;
+    assert_true(path->points.count == 3 && path->points.at[1][1] == 0.5f);
+    assert_true(path->over.max.constant == 1.5f && path->ease == VALUE_SMOOTH && path->closed);
+    assert_true(arm->heading == KILN_HEADING_PATH && arm->ahead == KILN_AHEAD_MINUS_X);
     kiln_scene_destroy(&scene);
 }
 
@@ -190,10 +200,49 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
     kiln_scene_destroy(&scene);
 }
 
+static void take_attach(struct kiln_attach *left, const struct kiln_attach *right)
+{
+    assert_true((left->name != NULL) == (right->name != NULL));
+    if (left->name)
+        assert_string_equal(left->name, right->name);
+    left->name = right->name;
+}
+
+/* Compares the texts and points of nodes, and gives the left scene those of the right one. */
+static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
+{
+    take_attach(&left->camera.attach, &right->camera.attach);
+    for (uint32_t i = 0; i < left->node_count; i++) {
+        struct kiln_scene_node *node = &left->nodes[i];
+        const struct kiln_path *path = &right->nodes[i].position.path;
+        assert_string_equal(node->name, right->nodes[i].name);
+        node->name = right->nodes[i].name;
+        take_attach(&node->parent, &right->nodes[i].parent);
+        assert_int_equal(node->position.path.points.count, path->points.count);
+        if (path->points.count > 0) {
+            assert_memory_equal(node->position.path.points.at, path->points.at,
+                                path->points.count * sizeof *path->points.at);
+            assert_true(kiln_path_length(&node->position.path) == kiln_path_length(path));
+        }
+        node->position.path.points.at = path->points.at;
+        node->position.path.table = path->table;
+    }
+    for (uint32_t i = 0; i < left->system_count; i++) {
+        take_attach(&left->systems[i].emit.attach, &right->systems[i].emit.attach);
+        for (uint32_t k = 0; k < left->systems[i].force_count; k++)
+            take_attach(&left->systems[i].forces[k].attach, &right->systems[i].forces[k].attach);
+    }
+    for (uint32_t i = 0; i < left->backdrop.object_count; i++)
+        take_attach(&left->backdrop.objects[i].attach, &right->backdrop.objects[i].attach);
+    for (uint32_t i = 0; i < left->backdrop.light_count; i++)
+        take_attach(&left->backdrop.lights[i].attach, &right->backdrop.lights[i].attach);
+}
+
 /* All that a run reads, compared bit by bit; pointers and the name aside. */
 static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scene *b)
 {
     struct kiln_scene left = *a, right = *b;
+    take_nodes(&left, &right);
     assert_int_equal(left.key_count, right.key_count);
     if (left.key_count)
         assert_memory_equal(left.keys, right.keys, left.key_count * sizeof *left.keys);

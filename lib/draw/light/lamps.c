@@ -98,8 +98,17 @@ static float4 with_w(float3 v, float w)
 static float3 direction_of(const struct kiln_scene *scene, const struct kiln_light *light,
                            float time_s)
 {
-    return float3_normalize(kiln_scene_value3(scene, &light->direction, time_s),
+    const float3 direction = kiln_scene_value3(scene, &light->direction, time_s);
+    return float3_normalize(kiln_attached_vector(scene, &light->attach, direction, time_s),
                             (float3){0.0f, -1.0f, 0.0f});
+}
+
+/* Returns one of the lengths of a light, m. */
+static float length_of(const struct kiln_scene *scene, const struct kiln_light *light,
+                       const struct kiln_value *length, float time_s)
+{
+    return kiln_attached_length(scene, &light->attach, kiln_scene_value(scene, length, time_s),
+                                time_s);
 }
 
 /* Makes a spot of a point light. */
@@ -120,11 +129,13 @@ static void add_edges(const struct kiln_scene *scene, const struct kiln_light *l
                       struct kiln_draw_light *drawn)
 {
     static const float PI = 3.14159265f;
-    const float width = kiln_scene_value(scene, &light->width, time_s);
-    const float height = kiln_scene_value(scene, &light->height, time_s);
+    const float width = length_of(scene, light, &light->width, time_s);
+    const float height = length_of(scene, light, &light->height, time_s);
     const float3 facing = direction_of(scene, light, time_s);
     const float3 none = {0.0f, 0.0f, 0.0f}, y = {0.0f, 1.0f, 0.0f}, minus_z = {0.0f, 0.0f, -1.0f};
-    const float3 wanted = float3_normalize(kiln_scene_value3(scene, &light->up, time_s), none);
+    const float3 up = kiln_scene_value3(scene, &light->up, time_s);
+    const float3 wanted =
+        float3_normalize(kiln_attached_vector(scene, &light->attach, up, time_s), none);
     float3 right = float3_cross(facing, wanted);
     if (float3_dot(right, right) < 1e-6f)
         right = float3_cross(facing, fabsf(facing.z) < 0.9f ? minus_z : y);
@@ -146,8 +157,9 @@ uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_ligh
     const float time_s = moment->view.clock.x;
     for (uint32_t i = 0; i < scene->backdrop.light_count; i++) {
         const struct kiln_light *light = &scene->backdrop.lights[i];
-        const float radius = kiln_scene_value(scene, &light->radius, time_s);
-        const float3 at = kiln_scene_value3(scene, &light->position, time_s);
+        const float radius = length_of(scene, light, &light->radius, time_s);
+        const float3 place = kiln_scene_value3(scene, &light->position, time_s);
+        const float3 at = kiln_attached_point(scene, &light->attach, place, time_s);
         const float3 color = kiln_scene_value3(scene, &light->color, time_s);
         lights[i] = (struct kiln_draw_light){
             .position_radius2 = {at.x, at.y, at.z, radius * radius},

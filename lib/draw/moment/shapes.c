@@ -179,7 +179,7 @@ static void fill_gloss(const struct kiln_scene *scene, float time_s,
 static float3 mesh_origin(const struct kiln_scene *scene, const struct kiln_object *object,
                           float time_s)
 {
-    float3 at = kiln_scene_value3(scene, &object->center, time_s);
+    float3 at = kiln_object_center(scene, object, time_s);
     if (object->kind == KILN_OBJECT_TERRAIN) {
         at.x -= 0.5f * object->size.x.constant;
         at.z -= 0.5f * object->size.z.constant;
@@ -193,11 +193,11 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
     float3 at = mesh_origin(scene, object, time_s);
     float scale = object->kind == KILN_OBJECT_TERRAIN
                       ? 1.0f
-                      : kiln_scene_value(scene, &object->scale, time_s);
+                      : kiln_object_length(scene, object, &object->scale, time_s);
     mat3 turn;
     mat4 to_world = {{0.0f}, {0.0f}, {0.0f}, {at.x, at.y, at.z, 1.0f}};
     vec3 center = {at.x, at.y, at.z}, half_size = GLM_VEC3_ZERO_INIT, half_edges;
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), turn);
+    kiln_object_rotation(scene, object, time_s, turn);
     glm_mat3_scale(turn, scale);
     glm_mat4_ins3(turn, to_world);
     kiln_matrix_to_rows(to_world, out->to_world);
@@ -282,21 +282,21 @@ static void fill_shape(const struct kiln_scene *scene, const struct kiln_object 
         .rows = {{1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f, 0.0f}},
     };
     if (object->kind == KILN_OBJECT_BOX) {
-        out->extent =
-            with_w(float3_scale(kiln_scene_value3(scene, &object->size, time_s), 0.5f), 0.0f);
+        out->extent = with_w(float3_scale(kiln_object_size(scene, object, time_s), 0.5f), 0.0f);
         mat3 rotation; /* the columns of a rotation are the rows of its inverse */
-        kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
+        kiln_object_rotation(scene, object, time_s, rotation);
         for (int i = 0; turned && i < 3; i++)
             out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
     } else {
         const bool has_axis = object->kind != KILN_OBJECT_SPHERE;
-        const float height = has_axis ? kiln_scene_value(scene, &object->height, time_s) : 0.0f;
-        const float radius = kiln_scene_value(scene, &object->radius, time_s);
+        const float height =
+            has_axis ? kiln_object_length(scene, object, &object->height, time_s) : 0.0f;
+        const float radius = kiln_object_length(scene, object, &object->radius, time_s);
         out->extent = (float4){radius, 0.5f * height, radius, radius};
         if (has_axis)
-            fill_axis(kiln_direction(kiln_scene_value3(scene, &object->axis, time_s)), out);
+            fill_axis(kiln_direction(kiln_object_axis(scene, object, time_s)), out);
     }
-    out->center = with_w(kiln_scene_value3(scene, &object->center, time_s), size_of(out));
+    out->center = with_w(kiln_object_center(scene, object, time_s), size_of(out));
 }
 
 /* Fills in all shapes in the order of their kinds. */

@@ -29,7 +29,7 @@ static float3 rotate(float3 v, float3 axis, float angle)
 static float3 forward_of(float3 position, float3 target)
 {
     float3 forward = float3_sub(target, position);
-    if (float3_dot(forward, forward) < 1e-12f)
+    if (float3_dot(forward, forward) < KILN_CAMERA_NO_WAY)
         return (float3){0.0f, 0.0f, -1.0f};
     return normalized(forward);
 }
@@ -86,16 +86,13 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_i
 {
     const struct kiln_camera *camera = &scene->camera;
     float time_s = kiln_scene_instant_time(scene, instant);
-    float3 position = kiln_scene_value3(scene, &camera->position, time_s);
-    float3 target = kiln_scene_value3(scene, &camera->target, time_s);
+    const struct kiln_camera_stand stand = kiln_scene_camera_at(scene, time_s);
+    const float3 position = stand.eye, target = stand.target;
     const struct exact_angle half_fov =
         exact_sincos(0.5f * kiln_scene_value(scene, &camera->fov, time_s));
     float roll = kiln_scene_value(scene, &camera->roll, time_s);
 
-    float3 forward = forward_of(position, target), up = {0.0f, 1.0f, 0.0f};
-    /* Where the camera looks straight down or up, the world's up cannot be the picture's up. */
-    if (fabsf(forward.y) > 0.9999f)
-        up = (float3){0.0f, 0.0f, forward.y > 0.0f ? 1.0f : -1.0f};
+    float3 forward = forward_of(position, target), up = stand.up;
     if (roll != 0.0f)
         up = rotate(up, forward, roll);
     float3 right = normalized(float3_cross(forward, up));

@@ -98,12 +98,12 @@ struct pose {
 static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_object *mesh,
                            float time_s)
 {
-    const float3 center = kiln_scene_value3(scene, &mesh->center, time_s);
+    const float3 center = kiln_object_center(scene, mesh, time_s);
     vec3 at = {center.x, center.y, center.z};
     mat3 rotation;
     float4 rows[3];
-    struct pose pose = {.metres = kiln_scene_value(scene, &mesh->scale, time_s)};
-    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), rotation);
+    struct pose pose = {.metres = kiln_object_length(scene, mesh, &mesh->scale, time_s)};
+    kiln_object_rotation(scene, mesh, time_s, rotation);
     /* the transposed rotation divided by the scale; then the position */
     for (int i = 0; i < 3; i++) {
         vec3 row;

@@ -40,8 +40,8 @@ struct round_values {
 static struct round_values round_values(const struct kiln_scene *scene,
                                         const struct kiln_object *object, float3 axis, float time_s)
 {
-    float3 center = kiln_scene_value3(scene, &object->center, time_s);
-    float radius = kiln_scene_value(scene, &object->radius, time_s);
+    float3 center = kiln_object_center(scene, object, time_s);
+    float radius = kiln_object_length(scene, object, &object->radius, time_s);
     float half = 0.0f;
     if (object->kind == KILN_OBJECT_CYLINDER)
         half = 0.5f * kiln_scene_value(scene, &object->height, time_s);
@@ -145,10 +145,10 @@ struct pose {
 static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_object *mesh,
                            float time_s)
 {
-    const float3 at = kiln_scene_value3(scene, &mesh->center, time_s);
+    const float3 at = kiln_object_center(scene, mesh, time_s);
     struct pose pose = {.position = {at.x, at.y, at.z},
-                        .scale = kiln_scene_value(scene, &mesh->scale, time_s)};
-    kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), pose.rotation);
+                        .scale = kiln_object_length(scene, mesh, &mesh->scale, time_s)};
+    kiln_object_rotation(scene, mesh, time_s, pose.rotation);
     return pose;
 }
 

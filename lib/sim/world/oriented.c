@@ -17,7 +17,7 @@ bool kiln_object_is_oriented(const struct kiln_object *object)
     case KILN_OBJECT_BOX:
         return kiln_object_is_oriented_box(object);
     case KILN_OBJECT_CYLINDER:
-        return !kiln_value3_is_constant(&object->axis);
+        return object->attach.name || !kiln_value3_is_constant(&object->axis);
     case KILN_OBJECT_CAPSULE:
     case KILN_OBJECT_PLANE:
     case KILN_OBJECT_CONE:
@@ -117,6 +117,18 @@ static float4 spin_from(versor from, versor to)
     return spin_of(turn);
 }
 
+float4 kiln_spin_between_turns(const double from[4], const double to[4])
+{
+    versor turn = {
+        (float)(to[0] * from[3] - to[3] * from[0] - to[1] * from[2] + to[2] * from[1]),
+        (float)(to[1] * from[3] - to[3] * from[1] - to[2] * from[0] + to[0] * from[2]),
+        (float)(to[2] * from[3] - to[3] * from[2] - to[0] * from[1] + to[1] * from[0]),
+        (float)(to[3] * from[3] + to[0] * from[0] + to[1] * from[1] + to[2] * from[2]),
+    };
+    make_unit(turn);
+    return spin_of(turn);
+}
+
 /* ---- colliders ------------------------------------------------------------------------------- */
 
 /* An object at a time. */
@@ -128,21 +140,38 @@ struct place {
     versor pose;
 };
 
+/* Turns the pose of an attached object as its node is turned. */
+static void attach_pose(const struct kiln_scene *scene, const struct kiln_object *object,
+                        float time_s, versor pose)
+{
+    if (!object->attach.name)
+        return;
+    const struct kiln_node_frame frame =
+        kiln_node_frame_at(scene, object->attach.node, time_s, time_s);
+    versor outer, inner;
+    for (int i = 0; i < 4; i++)
+        outer[i] = (float)frame.turn[i];
+    glm_vec4_copy(pose, inner);
+    glm_quat_mul(outer, inner, pose);
+    make_unit(pose);
+}
+
 static struct place place_at(const struct kiln_scene *scene, const struct kiln_object *object,
                              float time_s)
 {
-    struct place place = {.center = kiln_scene_value3(scene, &object->center, time_s)};
+    struct place place = {.center = kiln_object_center(scene, object, time_s)};
     if (object->kind == KILN_OBJECT_BOX) {
-        place.extent = float3_scale(kiln_scene_value3(scene, &object->size, time_s), 0.5f);
+        place.extent = float3_scale(kiln_object_size(scene, object, time_s), 0.5f);
         pose_of_angles(kiln_scene_value3(scene, &object->rotation, time_s), place.pose);
+        attach_pose(scene, object, time_s, place.pose);
         return place;
     }
     place.axis =
-        float3_normalize(kiln_scene_value3(scene, &object->axis, time_s), FLOAT3(0.0f, 1.0f, 0.0f));
+        float3_normalize(kiln_object_axis(scene, object, time_s), FLOAT3(0.0f, 1.0f, 0.0f));
     pose_of_axis(place.axis, place.pose);
     if (object->kind != KILN_OBJECT_PLANE) {
-        place.radius = kiln_scene_value(scene, &object->radius, time_s);
-        place.extent.y = 0.5f * kiln_scene_value(scene, &object->height, time_s);
+        place.radius = kiln_object_length(scene, object, &object->radius, time_s);
+        place.extent.y = 0.5f * kiln_object_length(scene, object, &object->height, time_s);
     }
     return place;
 }

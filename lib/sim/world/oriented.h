@@ -8,6 +8,10 @@
 /* m: half the edge of the world. Particles farther out are lost; planes and floors end here. */
 #define KILN_WORLD 2097152.0f
 
+/* Returns the rotation from one unit quaternion to another, the shorter way: a unit axis, and the
+ * angle in w, rad; all 0 for a turn as small as the rounding of poses. */
+float4 kiln_spin_between_turns(const double from[4], const double to[4]);
+
 /* Returns whether an object collides in a frame of its own. */
 bool kiln_object_is_oriented(const struct kiln_object *object);
 

@@ -13,20 +13,21 @@
 #include "shared/random.h"
 #include "shared/trace.h"
 #include "sim/world/colliders.h"
+#include "sim/world/emit_frame.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
-static_assert(sizeof(struct kiln_emit_params) == 256, "std140");
+static_assert(sizeof(struct kiln_emit_params) == 368, "std140");
 static_assert(sizeof(struct kiln_force_params) == 224, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
-static_assert(offsetof(struct kiln_step_params, step) == 304, "std140");
-static_assert(offsetof(struct kiln_step_params, randomness) == 368, "std140");
-static_assert(offsetof(struct kiln_step_params, pushed) == 436, "std140");
-static_assert(offsetof(struct kiln_step_params, bounds_min) == 480, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 768, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1808, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 8976, "std140");
-static_assert(sizeof(struct kiln_step_params) == 9056, "std140");
+static_assert(offsetof(struct kiln_step_params, step) == 416, "std140");
+static_assert(offsetof(struct kiln_step_params, randomness) == 480, "std140");
+static_assert(offsetof(struct kiln_step_params, pushed) == 548, "std140");
+static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 880, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1920, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 9088, "std140");
+static_assert(sizeof(struct kiln_step_params) == 9168, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -81,6 +82,7 @@ static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emit
         .radius = emit->radius,
         .inherit = emit->inherit,
         .turn = emit->turn,
+        .attached = emit->attach.name != NULL,
     };
 }
 
@@ -304,6 +306,29 @@ static void fill_region(struct kiln_force_params *params, const struct moment *m
         params->region_size = FLOAT4(radius, 0.0f, 0.0f, 0.0f);
 }
 
+static float3 constants_of(const struct kiln_value3 *value)
+{
+    return FLOAT3(value->x.constant, value->y.constant, value->z.constant);
+}
+
+static struct kiln_value3 of_constants(float3 v)
+{
+    return (struct kiln_value3){
+        .x = {.constant = v.x}, .y = {.constant = v.y}, .z = {.constant = v.z}};
+}
+
+/* Takes a force from its node to the world. Its place, axis and radius do not differ between
+ * particles, so they are constants in a step. */
+static void attach_force(const struct moment *m, const struct kiln_attach *attach,
+                         struct kiln_force_params *params)
+{
+    const float3 at = constants_of(&params->vector), axis = constants_of(&params->second);
+    params->vector = of_constants(kiln_attached_point(m->scene, attach, at, m->time_s));
+    params->second = of_constants(kiln_attached_vector(m->scene, attach, axis, m->time_s));
+    params->scale.constant =
+        kiln_attached_length(m->scene, attach, params->scale.constant, m->time_s);
+}
+
 static struct kiln_force_params force_at_time(const struct moment *m,
                                               const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force)
@@ -328,6 +353,8 @@ static struct kiln_force_params force_at_time(const struct moment *m,
     }
     if (force->region.enabled)
         fill_region(&params, m, &force->region);
+    if (force->attach.name)
+        attach_force(m, &force->attach, &params);
     return params;
 }
 
@@ -403,6 +430,8 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
         p->capacity = pool->systems[i].capacity;
         p->used = kiln_pool_used(&pool->systems[i]);
         find_spin(p, scene, i, p->time_s);
+        if (p->emit.attached)
+            p->emit.frame = kiln_emit_frame(scene, scene->systems[i].emit.attach.node, step);
     }
     return true;
 }

@@ -156,11 +156,11 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
                            float time_s, float clip_s, float (*to)[3])
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
-    const float3 center = kiln_scene_value3(scene, &object->center, time_s);
-    const float scale = kiln_scene_value(scene, &object->scale, time_s);
+    const float3 center = kiln_object_center(scene, object, time_s);
+    const float scale = kiln_object_length(scene, object, &object->scale, time_s);
     vec3 at = {center.x, center.y, center.z};
     mat3 rotation;
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
+    kiln_object_rotation(scene, object, time_s, rotation);
     if (volume->skin)
         kiln_skin_pose(volume->skin, object->animation.number, clip_s, volume->mesh->vertices);
     for (uint32_t i = 0; i < volume->mesh->vertex_count; i++) {
@@ -202,7 +202,7 @@ static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume
     float longest = 0.0f;
     for (int c = 0; c < 3; c++)
         longest = exact_max(longest, mesh->max[c] - mesh->min[c]);
-    const float scale = kiln_scene_value(scene, &object->scale, volume->after_s);
+    const float scale = kiln_object_length(scene, object, &object->scale, volume->after_s);
     return exact_max(longest * scale / (float)object->cells, 1e-4f);
 }
 

@@ -124,6 +124,8 @@ $ kiln help limits | sed -n '20,$p'
 1|objects       256         Objects of the backdrop, meshes and terrain included.
 1|meshes        64          Meshes and terrains of the backdrop.
 1|lights        64          Lights of the backdrop.
+1|nodes         256         Nodes.
+1|points        1024        Points of a node's path.
 1|parameters    256         Parameters.
 1|includes      64          Included files, through at most 8 files.
 1|copies        100000      Nodes that aliases, uses and parameters copy.

@@ -31,6 +31,18 @@ $ kiln render 64.yaml -q -o none --frames 0 --device software --technique sort=o
 2|kiln: systems: found 64 systems; the technique sort=oddeven takes at most 16: use sort=radix
 = 2
 
+Nodes, each in the one before it, and the points of a path:
+
+$ nodes() { printf 'kiln: 1\noutput: {size: [32, 18], frames: 9}\nnodes:\n  n0: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [0, 90 deg, 0]}}}\n'; for i in $(seq $(($1 - 1))); do echo "  n$i: {parent: n$((i - 1)), position: [0.01, 0, 0]}"; done; echo 'systems: {a: {emit: {rate: 600, attach: n255}}}'; }
+> nodes 256 >256.yaml; nodes 257 >257.yaml; bin/states 256.yaml; kiln check 257.yaml
+1|  state        26802e2f29ca8a9c
+2|257.yaml:4:3: nodes: found 257 entries; at most 256 are allowed
+= 3
+$ points() { printf 'kiln: 1\nnodes: {a: {position: {path: {over: [0, 1], points: ['; bin/series "$1" '[%d, 0, 0], '; echo ']}}}}'; }
+> points 1024 >points.yaml; kiln check -q points.yaml; points 1025 >points.yaml; kiln check points.yaml
+2|points.yaml:2:13283: more than 1024 entries in one list or mapping; no more are allowed
+= 3
+
 Forces of a system:
 
 $ fire() { printf 'kiln: 1\noutput: {size: [32, 18], frames: 9}\nsystems:\n  fire: {emit: {rate: 600}, forces: ['; bin/series "$1" 'wind: [0.%d, 0, 0], '; echo ']}'; }

@@ -1,0 +1,69 @@
+/* Declares emitters: where, when and how particles of a system are born (Heinz 2019, 2.1.2). Births
+ * are spread inside the step. */
+#ifndef KILN_SCENE_EMITTER_H
+#define KILN_SCENE_EMITTER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "option/values.h"
+#include "particles/births.h"
+#include "scene/node.h"
+
+enum kiln_emitter_shape {
+    KILN_EMITTER_POINT,
+    KILN_EMITTER_SPHERE,
+    KILN_EMITTER_BOX,
+    KILN_EMITTER_DISC,
+    KILN_EMITTER_CONE,
+    KILN_EMITTER_LINE,
+    KILN_EMITTER_RING, /* the rim of a disc */
+};
+
+enum kiln_event {
+    KILN_EVENT_DEATH,  /* the end of the parent's life */
+    KILN_EVENT_BOUNCE, /* the parent's first impact */
+    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly */
+};
+
+enum kiln_align {
+    KILN_ALIGN_WORLD,    /* the shape keeps the axes of the world */
+    KILN_ALIGN_VELOCITY, /* its y axis turns to the parent's direction of flight */
+    KILN_ALIGN_NORMAL,   /* its y axis turns to the normal of the surface that the parent hit */
+};
+
+/* Births of particles from particles of another system: shared/family.h. */
+struct kiln_parent {
+    bool enabled;
+    const char *name;
+    uint32_t system; /* index of that system */
+    enum kiln_event event;
+    enum kiln_align align;
+    uint32_t count[2];      /* death, bounce: the fewest and the most children of one parent */
+    bool impact;            /* death: a death at an impact counts as well */
+    struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
+    uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
+};
+
+struct kiln_emitter {
+    struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
+    struct kiln_value rate;    /* particles a second; clock constant or time */
+    struct kiln_burst bursts[KILN_MAX_BURSTS];
+    uint32_t burst_count;
+    struct kiln_range life;  /* s, at birth */
+    struct kiln_range speed; /* m/s, at birth */
+    enum kiln_emitter_shape shape;
+    struct kiln_attach attach;    /* the shape lies in this node */
+    struct kiln_value3 origin;    /* m: centre of the shape, apex disc's centre of a cone */
+    struct kiln_value3 direction; /* need not be normalised; not zero unless outward */
+    struct kiln_value angle;      /* rad: half angle of the directions about `direction`, 0..pi */
+    bool outward;                 /* sphere: directions point away from the origin instead */
+    bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
+    struct kiln_value radius;     /* m: sphere, disc, base of the cone */
+    struct kiln_value3 size;      /* m: box, full edges; line, from its first end to its last */
+    uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
+    struct kiln_value turn;       /* rad/s: of the shape about its direction */
+    struct kiln_value inherit;    /* part of the velocity of emitter or parent */
+};
+
+#endif

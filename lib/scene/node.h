@@ -1,0 +1,116 @@
+/* Declares nodes: places in a scene that move and turn, to which emitters, objects, lights and the
+ * camera are attached. What is attached lies in the node's frame: x is right, y up and z ahead.
+ *
+ * A pose at a time is exact: it does not depend on the steps of a simulation. It is computed in
+ * IEEE doubles from values of the scene and from paths, so every machine gets the same bits. */
+#ifndef KILN_SCENE_NODE_H
+#define KILN_SCENE_NODE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "scene/path.h"
+#include "shared/platform.h"
+
+struct kiln_object;
+struct kiln_scene;
+
+enum { KILN_MAX_NODES = 256 };
+
+enum kiln_heading {
+    KILN_HEADING_FIXED, /* the rotation alone turns the node */
+    KILN_HEADING_PATH,  /* an axis points along the path of the node's position */
+};
+
+enum kiln_ahead {
+    KILN_AHEAD_Z,
+    KILN_AHEAD_Y,
+    KILN_AHEAD_X,
+    KILN_AHEAD_MINUS_Z,
+    KILN_AHEAD_MINUS_Y,
+    KILN_AHEAD_MINUS_X,
+};
+
+/* Names the node that a part of a scene is attached to. */
+struct kiln_attach {
+    const char *name; /* NULL: none, the part lies in the world */
+    uint32_t node;    /* follows: number of the node */
+};
+
+/* A position: a value over time, or a path if that has points. */
+struct kiln_node_position {
+    struct kiln_value3 value; /* m */
+    struct kiln_path path;
+};
+
+struct kiln_scene_node {
+    const char *name;
+    struct kiln_attach parent;
+    struct kiln_node_position position; /* in the parent's frame */
+    struct kiln_value3 rotation;        /* rad: about x, then y, then z; within `heading` */
+    enum kiln_heading heading;
+    enum kiln_ahead ahead; /* the axis that `heading` turns along the path */
+    struct kiln_value scale;
+};
+
+/* The frame of a node in the world, and how fast it changes. */
+struct kiln_node_frame {
+    double at[3];       /* m */
+    double turn[4];     /* unit quaternion from the frame to the world: x, y, z, w */
+    double scale;       /* metres in one unit of the frame */
+    double velocity[3]; /* m/s */
+    double spin[3];     /* rad/s, about an axis of the world */
+    double growth;      /* of the scale, 1/s */
+};
+
+/* Returns the frame of a node at a clip time. Its rates are those just before or at another time:
+ * where a value has a corner or jumps, the rate before it is another one. */
+struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
+                                          float time_s, float rate_s);
+
+/* Returns the quaternion of the rotation about x, then y, then z, by angles in radians. */
+void kiln_node_turn_of_angles(float3 angles, double turn[4]);
+
+/* Returns whether a node, with all of its parents, has one frame at all times. */
+bool kiln_node_stands(const struct kiln_scene *scene, uint32_t node);
+
+/* Returns whether a node is another one or one of its parents, near or far. */
+bool kiln_node_carries(const struct kiln_scene *scene, uint32_t node, uint32_t other);
+
+/* Take what is attached from the node's frame to the world at a clip time: a point, a vector that
+ * keeps its length, a length, and a rotation as the columns of a matrix. What is not attached stays
+ * as it is, to the bit. */
+float3 kiln_attached_point(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                           float3 point, float time_s);
+float3 kiln_attached_vector(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                            float3 vector, float time_s);
+float kiln_attached_length(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                           float length, float time_s);
+void kiln_attached_rotation(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                            float columns[3][3], float time_s);
+
+/* Return what an object is in the world at a clip time: its centre, its edges, the direction of its
+ * axis, a radius or height, and its rotation. */
+float3 kiln_object_center(const struct kiln_scene *scene, const struct kiln_object *object,
+                          float time_s);
+float3 kiln_object_size(const struct kiln_scene *scene, const struct kiln_object *object,
+                        float time_s);
+float3 kiln_object_axis(const struct kiln_scene *scene, const struct kiln_object *object,
+                        float time_s);
+float kiln_object_length(const struct kiln_scene *scene, const struct kiln_object *object,
+                         const struct kiln_value *length, float time_s);
+void kiln_object_rotation(const struct kiln_scene *scene, const struct kiln_object *object,
+                          float time_s, float columns[3][3]);
+
+/* Below this square of the distance from the eye to the target, m^2, the camera looks along -z. */
+#define KILN_CAMERA_NO_WAY 1e-12f
+
+/* Where the camera is and what it looks at, in the world. */
+struct kiln_camera_stand {
+    float3 eye, target; /* m */
+    float3 up;          /* unit vector, of which the part across the line of sight counts */
+};
+
+struct kiln_camera_stand kiln_scene_camera_at(const struct kiln_scene *scene, float time_s);
+
+#endif

@@ -1,0 +1,205 @@
+/* This file settles the nodes of a scene when all of its rows are read: names become numbers, rings
+ * of parents are refused, and the curves of paths are measured once. */
+#include "scene/node_settle.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- names ----------------------------------------------------------------------------------- */
+
+/* Finds the node that the option at a path names, if it names one. */
+static bool find_node(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                      struct kiln_attach *attach)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const char *names[KILN_MAX_NODES];
+    if (!attach->name)
+        return true;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        names[i] = scene->nodes[i].name;
+        attach->node = i;
+        if (strcmp(names[i], attach->name) == 0)
+            return true;
+    }
+    char suggestion[512], quoted[64];
+    kiln_option_suggest(suggestion, sizeof suggestion, attach->name, names, scene->node_count);
+    kiln_node_quote(quoted, attach->name);
+    return kiln_reader_error_at(reader, root, path, "unknown node '%s'%s", quoted, suggestion);
+}
+
+static bool find_parents(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < scene->node_count; i++) {
+        char path[80];
+        snprintf(path, sizeof path, "nodes.%s.parent", scene->nodes[i].name);
+        ok = find_node(reader, root, path, &scene->nodes[i].parent);
+    }
+    return ok;
+}
+
+/* Refuses a node that is among its own parents, and names those on the way. */
+static bool check_ring(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_scene_node *node = &scene->nodes[index];
+    uint32_t count = 0;
+    while (node->parent.name && node->parent.node != index && count <= scene->node_count) {
+        node = &scene->nodes[node->parent.node];
+        count++;
+    }
+    if (!node->parent.name || node->parent.node != index)
+        return true; /* also where it leads into a ring of others, which is found from there */
+    char path[80], chain[256];
+    size_t length = (size_t)snprintf(chain, sizeof chain, "%s", scene->nodes[index].name);
+    node = &scene->nodes[index];
+    do {
+        node = &scene->nodes[node->parent.node];
+        if (length < sizeof chain)
+            length += (size_t)snprintf(chain + length, sizeof chain - length, ", %s", node->name);
+    } while (node != &scene->nodes[index]);
+    snprintf(path, sizeof path, "nodes.%s.parent", scene->nodes[index].name);
+    return kiln_reader_error_at(
+        reader, root, path,
+        "the node is its own parent: %s%s; the first node of a chain has no "
+        "parent",
+        chain, length < sizeof chain ? "" : "...");
+}
+
+/* ---- paths ----------------------------------------------------------------------------------- */
+
+static bool settle_path(struct kiln_reader *reader, const struct kiln_node *root,
+                        struct kiln_scene_node *node)
+{
+    struct kiln_path *curve = &node->position.path;
+    const uint32_t count = curve->points.count;
+    char path[112];
+    if (count == 0) {
+        snprintf(path, sizeof path, "nodes.%s.heading", node->name);
+        return node->heading == KILN_HEADING_FIXED ||
+               kiln_reader_error_at(reader, root, path, "needs a position that is a path");
+    }
+    snprintf(path, sizeof path, "nodes.%s.position.path.over", node->name);
+    if (!(curve->over.min.constant < curve->over.max.constant))
+        return kiln_reader_error_at(reader, root, path,
+                                    "expected two times, [first, last], of which the second is the "
+                                    "later one");
+    snprintf(path, sizeof path, "nodes.%s.position.path.points", node->name);
+    if (curve->closed && count < 3)
+        return kiln_reader_error_at(reader, root, path,
+                                    "found %u points; a closed path has 3 at least", count);
+    if (curve->closed &&
+        memcmp(curve->points.at[0], curve->points.at[count - 1], sizeof *curve->points.at) == 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "the last point must not be the first; a closed path goes on "
+                                    "to the first by itself");
+    curve->table = kiln_path_table_create(reader->arena, curve);
+    return curve->table || kiln_reader_out_of_memory(reader);
+}
+
+/* ---- what is attached ------------------------------------------------------------------------ */
+
+static const char *kind_of_object(const struct kiln_object *object)
+{
+    static const char *const names[] = {
+        [KILN_OBJECT_BOX] = "box",           [KILN_OBJECT_SPHERE] = "sphere",
+        [KILN_OBJECT_CYLINDER] = "cylinder", [KILN_OBJECT_MESH] = "mesh",
+        [KILN_OBJECT_CAPSULE] = "capsule",   [KILN_OBJECT_PLANE] = "plane",
+        [KILN_OBJECT_TERRAIN] = "terrain",   [KILN_OBJECT_CONE] = "cone",
+    };
+    return names[object->kind];
+}
+
+static bool find_backdrop(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    static const char *const lights[] = {
+        [KILN_LIGHT_POINT] = "point",
+        [KILN_LIGHT_SPOT] = "spot",
+        [KILN_LIGHT_RECTANGLE] = "rectangle",
+    };
+    struct kiln_backdrop *backdrop = &kiln_reader_scene(reader)->backdrop;
+    bool ok = true;
+    char path[80];
+    for (uint32_t i = 0; ok && i < backdrop->object_count; i++) {
+        struct kiln_object *object = &backdrop->objects[i];
+        snprintf(path, sizeof path, "backdrop.objects.%u.%s.attach", i, kind_of_object(object));
+        ok = find_node(reader, root, path, &object->attach);
+    }
+    for (uint32_t i = 0; ok && i < backdrop->light_count; i++) {
+        struct kiln_light *light = &backdrop->lights[i];
+        snprintf(path, sizeof path, "backdrop.lights.%u.%s.attach", i, lights[light->kind]);
+        ok = find_node(reader, root, path, &light->attach);
+    }
+    return ok;
+}
+
+static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root,
+                        struct kiln_system *system)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < system->force_count; i++) {
+        struct kiln_force *force = &system->forces[i];
+        char path[96];
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.attach", system->name, i,
+                 force->kind == KILN_FORCE_VORTEX ? "vortex" : "attract");
+        ok = find_node(reader, root, path, &force->attach);
+        if (ok && force->attach.name && force->region.enabled)
+            return kiln_reader_error_at(reader, root, path, "must be none for a force in a region");
+        if (ok && force->attach.name && force->scale.count > 0)
+            return kiln_reader_error_at(reader, root, path,
+                                        "must be none for a force whose radius varies");
+    }
+    return ok;
+}
+
+static bool find_systems(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        struct kiln_system *system = &scene->systems[i];
+        struct kiln_emitter *emit = &system->emit;
+        char path[80];
+        snprintf(path, sizeof path, "systems.%s.emit.attach", system->name);
+        if (!find_node(reader, root, path, &emit->attach) || !find_forces(reader, root, system))
+            return false;
+        if (emit->attach.name && emit->parent.enabled)
+            return kiln_reader_error_at(reader, root, path,
+                                        "must be none for a system with a parent, around whose "
+                                        "particles its own are born");
+    }
+    return true;
+}
+
+/* Puts a camera that says no more than its node into that node, and lets it look along z. */
+static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_camera *camera = &kiln_reader_scene(reader)->camera;
+    if (!find_node(reader, root, "camera.attach", &camera->attach))
+        return false;
+    if (!camera->attach.name)
+        return true;
+    const struct kiln_node *rows = kiln_node_entry(root, "camera");
+    const bool placed = rows && kiln_node_entry(rows, "position");
+    const bool aimed = rows && kiln_node_entry(rows, "target");
+    if (!placed)
+        camera->position = (struct kiln_value3){.x = {.constant = 0}};
+    if (placed && !aimed && !kiln_value3_is_constant(&camera->position))
+        return kiln_reader_error_at(reader, root, "camera.position",
+                                    "varies within a node, so the camera needs a target, too");
+    if (!aimed) {
+        camera->target = camera->position;
+        camera->target.z.constant += 1;
+    }
+    return true;
+}
+
+bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    bool ok = find_parents(reader, root);
+    for (uint32_t i = 0; ok && i < scene->node_count; i++)
+        ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
+    return ok && settle_camera(reader, root) && find_backdrop(reader, root) &&
+           find_systems(reader, root);
+}

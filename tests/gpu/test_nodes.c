@@ -1,0 +1,130 @@
+/* Checks that each technique of the stage `simulate` computes the same bits as `cpu` where emitters
+ * and colliders lie in nodes. If this fails, GLSL takes births from the frame of a node in another
+ * way than C (shaders/shared/emit.h). */
+#include <math.h>
+#include <string.h>
+
+#include "support/cmocka.h"
+#include "support/device.h"
+#include "support/parts.h"
+#include "support/scenes.h"
+#include "support/simulation.h"
+
+static const char SCENE[] =
+    "kiln: 1\n"
+    "seed: 3\n"
+    "output: {frames: 60}\n"
+    "nodes:\n"
+    "  hub: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [10 deg, 400 deg, 0]}},\n"
+    "        scale: {keys: {0 s: 1, 1 s: 2}}}\n"
+    "  arm: {parent: hub, position: [1, 1, 0]}\n"
+    "  ship: {position: {path: {points: [[0, 1, 0], [1, 2, 1], [3, 0.5, 0]], over: [0.1 s, 1 s],\n"
+    "         ease: smooth}}, heading: path}\n"
+    "  jump: {position: {keys: {0 s: [0, 1, 0], 0.3 s: [2, 1, 0], 0.6 s: [0, 1, 2]}, ease: step}}\n"
+    "backdrop:\n"
+    "  objects:\n"
+    "    - box: {attach: arm, center: [0, -0.6, 0]}\n"
+    "    - capsule: {attach: ship, axis: [0, 0, 1], center: [0, 0, 1]}\n"
+    "    - sphere: {attach: hub, center: [-1, 0, 0]}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit:\n"
+    "      rate: 1500\n"
+    "      attach: arm\n"
+    "      inherit: 0.8\n"
+    "      from: {disc: {origin: {keys: {0 s: [0, 0, 0], 1 s: [0, 1, 0]}}, turn: 90 deg/s}}\n"
+    "    forces: [{gravity: {}}]\n"
+    "    collide: {restitution: 0.6, friction: 0.2}\n"
+    "  b:\n"
+    "    emit: {rate: 900, attach: ship, inherit: {random: [0, 1]},\n"
+    "           from: {cone: {direction: [0, 0, -1]}}}\n"
+    "    forces: [{attract: {attach: hub, position: [0, 1, 0], strength: 3}},\n"
+    "             {vortex: {attach: ship, axis: [0, 0, 1], radius: 0.3}}]\n"
+    "    collide: {}\n"
+    "  c:\n"
+    "    emit: {rate: 900, attach: jump, inherit: 1, from: {sphere: {outward: true}}}\n"
+    "  free:\n"
+    "    emit: {rate: 500, inherit: 1, from: {box: {}}}\n"
+    "  sparks:\n"
+    "    emit: {parent: {system: a, on: {trail: {rate: 4}}}, life: 0.3 s}\n";
+
+static const struct {
+    enum kiln_simulate_technique technique;
+    const char *name;
+} ways[] = {{KILN_SIMULATE_INPLACE, "inplace"},
+            {KILN_SIMULATE_FEEDBACK, "feedback"},
+            {KILN_SIMULATE_PINGPONG, "pingpong"},
+            {KILN_SIMULATE_TEXELS, "texels"}};
+
+static size_t way_count(void)
+{
+    return test_is_full() ? sizeof ways / sizeof *ways : 1;
+}
+
+static void attached_emitters_agree(void **state)
+{
+    struct kiln_scene *scene = load_scene(SCENE, NULL);
+    for (size_t i = 0; i < way_count(); i++) {
+        struct simulation cpu, other;
+        uint64_t alive, other_alive;
+        simulation_start(&cpu, scene, NULL, 2);
+        simulation_start_with(&other, scene, *state, ways[i].technique, 1);
+        for (uint32_t step = 1; step <= 70; step++) {
+            simulation_run(&cpu, 1);
+            simulation_run(&other, 1);
+            const struct kiln_state_hash a = simulation_hash(&cpu, &alive);
+            const struct kiln_state_hash b = simulation_hash(&other, &other_alive);
+            if (alive != other_alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
+                fail_msg("step %u: %08x%08x on cpu, %08x%08x with %s", step, a.lane[0], a.lane[1],
+                         b.lane[0], b.lane[1], ways[i].name);
+        }
+        assert_true(alive > 2000);
+        simulation_end(&other);
+        simulation_end(&cpu);
+    }
+    kiln_scene_destroy(&scene);
+}
+
+/* A circle of 1 m, once around in a second. */
+static const char CIRCLE[] =
+    "kiln: 1\n"
+    "output: {frames: 120, fps: 60}\n"
+    "nodes:\n"
+    "  hub: {rotation: {keys: {0 s: [0, 0, 0], 2 s: [0, 720 deg, 0]}}}\n"
+    "  arm: {parent: hub, position: [1, 0, 0]}\n"
+    "systems: {a: {emit: {rate: 3000, speed: 0, life: 9 s, attach: arm, from: {point: {}}}}}\n";
+
+static void births_lie_on_a_circle(void **state)
+{
+    struct kiln_scene *scene = load_scene(CIRCLE, NULL);
+    for (size_t i = 0; i < way_count(); i++) {
+        struct simulation run;
+        uint32_t seen = 0;
+        simulation_start_with(&run, scene, *state, ways[i].technique, 1);
+        simulation_run(&run, 60);
+        const struct kiln_particle *records = simulation_records(&run);
+        for (uint32_t k = 0; k < run.pool.systems[0].capacity; k++) {
+            const float3 p = particle_position(records[k]);
+            const double radius = hypot((double)p.x, (double)p.z);
+            if (!particle_is_alive(records[k]))
+                continue;
+            seen++;
+            if (!(fabs(radius - 1) < 1e-5))
+                fail_msg("%s: born %.9g m from the axis", ways[i].name, radius);
+        }
+        assert_true(seen > 2900);
+        simulation_end(&run);
+    }
+    kiln_scene_destroy(&scene);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(attached_emitters_agree),
+        test_on_device(births_lie_on_a_circle),
+    };
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
+    return test_list_run(&list, "nodes", argc, argv, simulation_device_open, test_device_close);
+}
