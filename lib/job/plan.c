@@ -15,8 +15,9 @@
 #include "scene/instant.h"
 #include "scene/motion.h"
 
-/* A frame that takes longer is drawn only once. */
+/* To measure a frame, so many frames after it are drawn, unless those before took so long. */
 static const double LONG_FRAME_S = 2.0;
+enum { LATER_FRAMES = 3 };
 
 /* A sample is the time that was measured for some work of struct kiln_workload. */
 struct sample {
@@ -34,6 +35,7 @@ struct planning {
     struct sample frames[2]; /* by their work; the last is that of plan->frame */
     uint32_t frame_count;
     struct sample steps; /* all that were measured */
+    double caches_cpu_s; /* what frames that filled caches took more than others */
     struct kiln_plan *plan;
 };
 
@@ -100,22 +102,48 @@ static bool draw(struct planning *p, uint32_t frame, struct sample *sample,
     return true;
 }
 
-/* Measures a frame. The first drawing fills caches that later frames use, so the next frame is
- * drawn, too, and counts if it has about as much work. The same frame again would take less: shadow
- * maps of what has not moved are kept. */
-static bool measure_frame(struct planning *p, uint32_t frame, struct sample *sample,
-                          struct kiln_error *error)
+static bool takes_less(const struct sample *a, const struct sample *b)
 {
-    struct sample next;
+    return a->cpu_s * b->work < b->cpu_s * a->work;
+}
+
+/* Measures a frame by those after it, before another frame that is given, with about as much work:
+ * the middle one of three in its time for its work, and the lesser of two, since one may have
+ * waited for memory. The first drawing also fills caches, which later frames use; what it takes
+ * more is counted once. The same frame again would take less: shadow maps of what has not moved are
+ * kept. */
+static bool measure_frame(struct planning *p, uint32_t frame, uint32_t before,
+                          struct sample *sample, struct kiln_error *error)
+{
     if ((p->states && !kiln_states_take_up(p->states, p->loop, frame, error)) ||
         !advance(p, frame, error) || !draw(p, frame, sample, error))
         return false;
-    if (frame + 1 >= p->scene->frames || sample->cpu_s > LONG_FRAME_S)
+    const struct sample first = *sample;
+    struct sample later[LATER_FRAMES];
+    uint32_t count = 0;
+    double drawn_s = first.cpu_s;
+    for (uint32_t i = 1; i <= LATER_FRAMES && frame + i < before; i++) {
+        struct sample other;
+        if (drawn_s > LONG_FRAME_S)
+            break;
+        if (!advance(p, frame + i, error) || !draw(p, frame + i, &other, error))
+            return false;
+        drawn_s += other.cpu_s;
+        if (other.work <= 0.5 * first.work)
+            continue;
+        if (other.work >= 2.0 * first.work)
+            other.work = first.work;
+        uint32_t at = count++;
+        for (; at > 0 && takes_less(&other, &later[at - 1]); at--)
+            later[at] = later[at - 1];
+        later[at] = other;
+    }
+    if (count == 0)
         return true;
-    if (!advance(p, frame + 1, error) || !draw(p, frame + 1, &next, error))
-        return false;
-    if (next.work > 0.5 * sample->work && next.work < 2.0 * sample->work)
-        *sample = next;
+    *sample = later[(count - 1) / 2];
+    const double alike_s = sample->cpu_s * first.work / sample->work;
+    if (first.cpu_s > alike_s)
+        p->caches_cpu_s += first.cpu_s - alike_s;
     return true;
 }
 
@@ -130,15 +158,16 @@ static bool measure(struct planning *p, struct kiln_error *error)
         frames[1] = kiln_workload_heaviest(p->workload);
         plan->frame = frames[1];
     }
-    /* The loop only goes forward, and has drawn the frame after the earlier one. */
+    /* The loop only goes forward. */
     const uint32_t least = frames[0] < frames[1] ? frames[0] : frames[1];
     const uint32_t most = frames[0] < frames[1] ? frames[1] : frames[0];
-    p->frame_count = most - least < 2 ? 1 : 2;
+    const uint32_t end = p->scene->frames;
+    p->frame_count = most == least ? 1 : 2;
     if (p->frame_count == 1) {
-        if (!measure_frame(p, plan->frame, &p->frames[0], error))
+        if (!measure_frame(p, plan->frame, end, &p->frames[0], error))
             return false;
-    } else if (!measure_frame(p, least, &p->frames[least == plan->frame], error) ||
-               !measure_frame(p, most, &p->frames[most == plan->frame], error)) {
+    } else if (!measure_frame(p, least, most, &p->frames[least == plan->frame], error) ||
+               !measure_frame(p, most, end, &p->frames[most == plan->frame], error)) {
         return false;
     }
     plan->memory_bytes = peak_memory();
@@ -191,7 +220,7 @@ static struct kiln_plan_task task_of(const struct planning *p, uint32_t index)
     }
     const uint32_t last_step = kiln_scene_last_step(scene, task.frames.last);
     task.steps = last_step - task.state_step;
-    task.cpu_s = plan->setup_cpu_s + steps_seconds(p, task.state_step, last_step);
+    task.cpu_s = plan->setup_cpu_s + p->caches_cpu_s + steps_seconds(p, task.state_step, last_step);
     for (uint32_t frame = task.frames.first; frame <= task.frames.last; frame++)
         task.cpu_s += frame_seconds(p, frame);
     return task;

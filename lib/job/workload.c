@@ -69,6 +69,24 @@ static void add_bursts(const struct kiln_workload *w, const struct kiln_emitter 
     }
 }
 
+/* Adds the births of a trail. The first child is born with its parent, and others from the age on
+ * at which the rate gives one more. */
+static void add_trail(const struct kiln_workload *w, const struct kiln_parent *parent,
+                      const struct numbers *of_parent, double *births)
+{
+    const double rate = (double)kiln_scene_value_max(w->scene, &parent->rate) * w->length_s;
+    if (rate <= 0.0)
+        return;
+    const uint32_t whole = (uint32_t)fmin(1.0 / rate, w->count);
+    double young = 0.0; /* parents with one child so far: those of the last slots, and of a part */
+    for (uint32_t i = 0; i < w->count; i++) {
+        const double older = i >= whole ? of_parent->births[i - whole] : 0.0;
+        const double of_part = (1.0 / rate - whole) * older;
+        young += whole > 0 ? of_parent->births[i] - older : 0.0;
+        births[i] = of_parent->births[i] + fmax(of_parent->living[i] - young - of_part, 0.0) * rate;
+    }
+}
+
 /* Fills the births of a system in each slot; of_parent: what its parent does, or unused. */
 static void find_births(const struct kiln_workload *w, const struct kiln_system *system,
                         const struct numbers *of_parent, double *births)
@@ -84,14 +102,13 @@ static void find_births(const struct kiln_workload *w, const struct kiln_system 
         }
         const double before = i > 0 ? of_parent->living[i - 1] : 0.0;
         const double deaths = fmax(before + of_parent->births[i] - of_parent->living[i], 0.0);
-        if (parent->event == KILN_EVENT_TRAIL)
-            births[i] = of_parent->living[i] * w->length_s *
-                        (double)kiln_scene_value_max(w->scene, &parent->rate);
-        else if (parent->event == KILN_EVENT_DEATH)
+        if (parent->event == KILN_EVENT_DEATH)
             births[i] = deaths * count;
-        else /* taken for one bounce of each, at some time of its life */
+        else if (parent->event == KILN_EVENT_BOUNCE) /* taken for one of each, at its birth */
             births[i] = of_parent->births[i] * count;
     }
+    if (parent->enabled && parent->event == KILN_EVENT_TRAIL)
+        add_trail(w, parent, of_parent, births);
     if (!parent->enabled)
         add_bursts(w, emit, births);
 }

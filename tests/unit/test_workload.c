@@ -113,6 +113,36 @@ static void children_follow_their_parents(void **state)
     finish(&clip);
 }
 
+/* Returns a clip of 1000 parents that are born at 1 s, with a trail. */
+static struct clip clip_of_trail(const char *life, const char *rate)
+{
+    char text[512];
+    struct kiln_error error = {0};
+    snprintf(text, sizeof text,
+             "kiln: 1\noutput: {size: [64, 36], fps: 30, frames: 90}\nsystems:\n"
+             "  a: {emit: {bursts: {1: 1000}, life: %s}, look: {shape: point, size: 0 cm}}\n"
+             "  b: {emit: {parent: {system: a, on: {trail: {rate: %s}}}, life: 0.2 s}, "
+             "look: {shape: point, size: 20 m}}\n",
+             life, rate);
+    struct clip clip = {.scene = kiln_scene_parse(text, strlen(text), "test.yaml", NULL, &error)};
+    assert_non_null(clip.scene);
+    clip.workload = kiln_workload_create(clip.scene);
+    assert_non_null(clip.workload);
+    return clip;
+}
+
+static void trails_begin_at_their_parents_births(void **state)
+{
+    (void)state;
+    struct clip one = clip_of_trail("1 s", "0.5");
+    struct clip many = clip_of_trail("1 s", "50");
+    assert_true(added(&one, 33) > 5.0 * added(&one, 45)); /* the only child lives until 1.2 s */
+    const double ratio = added(&many, 50) / added(&one, 33);
+    assert_true(ratio > 9.0 && ratio < 11.0); /* ten live at a time */
+    finish(&one);
+    finish(&many);
+}
+
 static void steps_add_up(void **state)
 {
     (void)state;
@@ -134,6 +164,7 @@ int main(void)
         cmocka_unit_test(a_rate_gives_as_many_as_it_bears_in_a_life),
         cmocka_unit_test(lives_shorter_than_a_frame_count_in_part),
         cmocka_unit_test(children_follow_their_parents),
+        cmocka_unit_test(trails_begin_at_their_parents_births),
         cmocka_unit_test(steps_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
