@@ -13,6 +13,7 @@
 #include "option/params.h"
 #include "option/unit.h"
 #include "scene/small_steps.h"
+#include "scene/source.h"
 
 static const struct row {
     const char *service; /* the limit in the preset `service` */
@@ -183,6 +184,8 @@ static const struct size {
     {"includes", KILN_INCLUDE_MAX_FILES, .help = "Included files, through at most 8 files"},
     {"copies", KILN_NODE_MAX_COPIES, .help = "Nodes that aliases, uses and parameters copy"},
     {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
+    {"sources", KILN_MAX_SOURCE_CELLS,
+     .help = "Triangles, vertices and pixels that particles are born on"},
     {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };
 

@@ -17,15 +17,14 @@ static uint64_t rate_fixed(float rate)
     return (uint64_t)((double)(rate < max_rate ? rate : max_rate) * 4294967296.0);
 }
 
-static void add_group(struct kiln_births *births, uint32_t count, uint32_t first, uint32_t spacing)
+static void add_group(struct kiln_births *births, struct kiln_birth_group group)
 {
-    if (count > UINT32_MAX - births->count)
-        count = UINT32_MAX - births->count;
-    if (count == 0 || births->group_count == KILN_MAX_BIRTH_GROUPS)
+    if (group.count > UINT32_MAX - births->count)
+        group.count = UINT32_MAX - births->count;
+    if (group.count == 0 || births->group_count == KILN_MAX_BIRTH_GROUPS)
         return;
-    births->groups[births->group_count++] =
-        (struct kiln_birth_group){.count = count, .first = first, .spacing = spacing};
-    births->count += count;
+    births->groups[births->group_count++] = group;
+    births->count += group.count;
 }
 
 static void add_rate(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
@@ -44,7 +43,9 @@ static void add_rate(const struct kiln_births_source *source, uint32_t step, uin
         count = UINT32_MAX;
     wide first = ((wide)*wait << 32) / rate_units;
     wide spacing = count > 1 ? (units_per_birth << 32) / rate_units : 0;
-    add_group(births, (uint32_t)count, (uint32_t)first, (uint32_t)spacing);
+    add_group(births, (struct kiln_birth_group){.count = (uint32_t)count,
+                                                .first = (uint32_t)first,
+                                                .spacing = (uint32_t)spacing});
     *wait = (uint64_t)((*wait + count * units_per_birth - rate_units) % units_per_birth);
 }
 
@@ -72,7 +73,9 @@ static void add_burst(const struct kiln_births_source *source, uint32_t i, uint3
     if (births->group_count - (births->of_rate > 0) == KILN_MAX_BURSTS)
         births->left_out = true;
     else
-        add_group(births, count_of(burst, stream, purpose), (uint32_t)(parts - start) << 26, 0);
+        add_group(births, (struct kiln_birth_group){.count = count_of(burst, stream, purpose),
+                                                    .first = (uint32_t)(parts - start) << 26,
+                                                    .is_burst = 1});
 }
 
 /* Adds the repetitions of burst number i that happen in the step. Looks at all that may: a little

@@ -22,6 +22,7 @@
 #include "scene/place.h"
 #include "scene/resolve.h"
 #include "scene/small_steps.h"
+#include "scene/source.h"
 #include "scene/validate.h"
 #include "scene/work.h"
 
@@ -81,7 +82,8 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
             if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
                 read = kiln_asset_add_hash(scene, scene->systems[i].forces[k].file, &text, error);
     }
-    read = read && (!ok || add_backdrop_hashes(scene, &text, error));
+    read = read && (!ok || (add_backdrop_hashes(scene, &text, error) &&
+                            kiln_sources_add_hashes(scene, false, &text, error)));
     ok = ok && !text.failed;
     if (ok)
         kiln_hash_sha256(text.data, text.length, scene->hash);

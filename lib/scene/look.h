@@ -124,6 +124,12 @@ struct kiln_look {
     bool light_shadow;           /* objects hide them */
 };
 
+/* Returns whether a particle has the colour of the mesh or image where it was born. */
+static inline bool kiln_look_color_is_source(const struct kiln_look *look)
+{
+    return look->color.x.count == 0 && look->color.x.constant == KILN_VALUE_BY_WORD;
+}
+
 /* Returns whether particles are solid, with other particles in front of or behind them. */
 static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 {

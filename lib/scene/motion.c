@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
+#include "scene/source.h"
 
 /* Adds the hashes of the wind files of field forces, and of the meshes and terrain that particles
  * hit. Both parts have them. */
@@ -37,7 +38,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
                  !kiln_asset_add_hash(scene, object->file, text, error))
             return false;
     }
-    return true;
+    return kiln_sources_add_hashes(scene, true, text, error);
 }
 
 bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part part, char hex[65],

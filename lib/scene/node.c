@@ -213,6 +213,24 @@ struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32
     return frame;
 }
 
+struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
+                                            const struct kiln_object *object, float time_s,
+                                            float rate_s)
+{
+    const uint32_t key = random_noise_key(scene->seed);
+    const struct moments m = {scene->keys, value_clocks_at(time_s, key, key),
+                              value_clocks_at(rate_s, key, key)};
+    const struct kiln_scene_node own = {.position = {.value = object->center},
+                                        .rotation = object->rotation,
+                                        .scale = object->scale};
+    const struct kiln_node_frame frame = own_frame(&own, &m);
+    if (!object->attach.name)
+        return frame;
+    const struct kiln_node_frame outer =
+        kiln_node_frame_at(scene, object->attach.node, time_s, rate_s);
+    return inside_of(&outer, &frame);
+}
+
 /* ---- questions ------------------------------------------------------------------------------- */
 
 bool kiln_node_stands(const struct kiln_scene *scene, uint32_t node)

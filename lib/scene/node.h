@@ -68,6 +68,11 @@ struct kiln_node_frame {
 struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
                                           float time_s, float rate_s);
 
+/* Returns the frame of an object of the backdrop that is a mesh, in the same way. */
+struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
+                                            const struct kiln_object *object, float time_s,
+                                            float rate_s);
+
 /* Returns the quaternion of the rotation about x, then y, then z, by angles in radians. */
 void kiln_node_turn_of_angles(float3 angles, double turn[4]);
 

@@ -31,10 +31,12 @@ extern const struct kiln_option_type kiln_type_assets;       /* builtin:name, a 
 extern const struct kiln_option_type kiln_type_motion;       /* a word of `choices`, or a path */
 extern const struct kiln_option_type kiln_type_motion_scale; /* auto, 0.5, [0.5, -0.5] */
 extern const struct kiln_option_type kiln_type_picture;      /* an image's path or none */
+extern const struct kiln_option_type kiln_type_image;        /* the same, decoded later */
 extern const struct kiln_option_type kiln_type_mesh;         /* a mesh's path */
 extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
 extern const struct kiln_option_type kiln_type_name;         /* a system's name */
+extern const struct kiln_option_type kiln_type_object;       /* an object's name or number */
 extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a list */
 extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] */
 extern const struct kiln_option_type kiln_type_attach;       /* a node's name, or none */
@@ -47,10 +49,12 @@ typedef const char *kiln_fills_assets[];
 typedef const char *kiln_fills_motion;
 typedef struct kiln_motion_scale kiln_fills_motion_scale;
 typedef const char *kiln_fills_picture;
+typedef const char *kiln_fills_image;
 typedef const char *kiln_fills_mesh;
 typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
 typedef const char *kiln_fills_name;
+typedef const char *kiln_fills_object;
 typedef struct kiln_attach kiln_fills_attach;
 typedef struct kiln_node_position kiln_fills_place;
 typedef struct kiln_path_points kiln_fills_points;

@@ -31,11 +31,13 @@ ITEM_OF_ROWS(burst, burst_options);
 #undef FILLS
 #define FILLS struct kiln_emitter
 
-/* Options that every shape has. `spread` is the default of `angle`. */
-#define PLACE(spread)                                                                              \
+/* Options that every shape has. `spread` is the default of `angle`, and `towards` of `direction`.
+ */
+#define PLACE(spread) PLACE_TO(spread, "[0, 1, 0]")
+#define PLACE_TO(spread, towards)                                                                  \
     VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, BIRTH(1), "[0, 0, 0]",                \
            "Centre of the shape. When it moves, births are spread along its way."),                \
-        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), "[0, 1, 0]",       \
+        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), towards,           \
                "Mean direction in which particles start, of any length but 0."),                   \
         VALUE(MOTION, "angle", angle, KILN_ANGLE, 0, KILN_DEG(180), BIRTH(3), spread,              \
               "Largest angle between a particle's direction and the mean direction.")
@@ -45,6 +47,11 @@ ITEM_OF_ROWS(burst, burst_options);
           "0 deg/s",                                                                               \
           "Angular speed at which the shape turns about its direction. Particles get the "         \
           "velocity that the turning shape has where they are born.")
+
+#define ORDERED                                                                                    \
+    BOOLEAN(IF_ORDERED, "ordered", ordered, "false",                                               \
+            "true puts the particles of a burst at equal distances in the order of their births, " \
+            "from one end to the other, instead of at random. Those of `rate` stay at random.")
 
 TABLE(point) = {
     PLACE("0 deg"),
@@ -84,6 +91,7 @@ TABLE(ring) = {
     VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, BIRTH(8), "0.5 m",
           "Radius of the ring, which faces the direction."),
     TURN,
+    ORDERED,
     END,
 };
 
@@ -107,6 +115,64 @@ TABLE(line) = {
         "equal parts, with a nozzle in the middle of each. With 0, particles are born anywhere on "
         "the line."),
     TURN,
+    ORDERED,
+    END,
+};
+
+static const char *const places_on_mesh[] = {
+    [KILN_ON_SURFACE] = "surface",
+    [KILN_ON_VERTICES] = "vertices",
+    [KILN_ON_VOLUME] = "volume",
+    NULL,
+};
+
+TABLE(mesh) = {
+    PLACE("0 deg"),
+    {ROW(MOTION, "file", mesh, source.file, "none",
+         "An OBJ, glTF, GLB, PLY or STL file of triangles, at rest. Without it, there is an "
+         "`object`.")},
+    {ROW(MOTION, "object", object, source.object, "none",
+         "A mesh of the backdrop, in whose frame the shape lies. Births are spread along its way, "
+         "and `inherit` is of its velocity there.")},
+    CHOICE(MOTION, "on", source.on, places_on_mesh, "surface",
+           "`surface` is all triangles, by their areas. `vertices` is the vertices of the file, "
+           "all of which are as likely. `volume` is the inside of a closed mesh."),
+    BOOLEAN(MOTION, "outward", outward, "true",
+            "The mean direction of a particle is that of the surface where it is born, or of the "
+            "normal of the vertex, instead of `direction`. It counts for nothing in a volume."),
+    VECTOR(MOTION, "rotation", source.rotation, KILN_ANGLE, KILN_DEG(-36000), KILN_DEG(36000), 0,
+           "[0, 0, 0]", "Rotation of a file about the x, y and z axes, in this order."),
+    {ROW(MOTION, "scale", number, source.scale, "1", "Metres in one unit of a file."),
+     LIMITS(KILN_PLAIN, 1e-6, 1e6)},
+    END,
+};
+
+TABLE(image) = {
+    PLACE_TO("0 deg", "[0, 0, 1]"),
+    {ROW(MOTION, "file", image, source.file, "none",
+         "The image. It stands upright around the origin, x to the right and y up. Particles are "
+         "born on its pixels, by their alpha, or by their brightness if all of it is opaque: a "
+         "pixel that has twice as much gets twice as many.")},
+    {ROW(MOTION, "width", number, source.width, "1 m",
+         "Width of the image. Its height follows from its proportions."),
+     LIMITS(KILN_METRES, 0.001, FAR)},
+    {ROW(MOTION, "threshold", number, source.threshold, "0.5",
+         "No particle is born on a pixel whose alpha or brightness is not above this, which is "
+         "from 0 to 1."),
+     LIMITS(KILN_FRACTION, 0, 1)},
+    TURN,
+    END,
+};
+
+TABLE(path) = {
+    PLACE("0 deg"),
+    {ROW(MOTION, "points", points, source.path.points, NULL,
+         "Points that the path goes through smoothly, as that of a node does. Particles are born "
+         "all along its length alike."),
+     LIMITS(KILN_METRES, -FAR, FAR)},
+    BOOLEAN(MOTION, "closed", source.path.closed, "false", "The path ends at its first point."),
+    TURN,
+    ORDERED,
     END,
 };
 
@@ -127,6 +193,19 @@ KINDS(shapes) = {
      .value = KILN_EMITTER_LINE,
      MEMBERS(line),
      .help = "A line, or a rake of nozzles, whose smoke shows how air flows."},
+    {.name = "mesh",
+     .value = KILN_EMITTER_MESH,
+     MEMBERS(mesh),
+     .help = "The surface of a mesh, of a file or of the backdrop."},
+    {.name = "image",
+     .value = KILN_EMITTER_IMAGE,
+     MEMBERS(image),
+     .shortcut = "file",
+     .help = "The pixels of an image, such as a logo."},
+    {.name = "path",
+     .value = KILN_EMITTER_PATH,
+     MEMBERS(path),
+     .help = "A smooth curve through points."},
     {.name = NULL},
 };
 

@@ -11,6 +11,8 @@
  * tests/unit/test_motion.c changes every row and checks this. */
 #include "scene/parts.h"
 
+#include "scene/source.h"
+
 /* A row that decides the motion also decides the view, so no row belongs to the motion alone. */
 enum {
     NEITHER = KILN_PART_HASHED,
@@ -82,7 +84,10 @@ unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
 {
     const struct kiln_object *o = object;
     const bool bounces = o->collide && any_collides(scene);
-    return bounces || (kiln_object_takes_paint(o) && any_paints(scene)) ? BOTH : NEITHER;
+    return bounces || kiln_object_is_source(scene, o) ||
+                   (kiln_object_takes_paint(o) && any_paints(scene))
+               ? BOTH
+               : NEITHER;
 }
 
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop)
@@ -120,6 +125,12 @@ unsigned kiln_row_if_impacts_count(const void *scene, const void *emit)
 {
     (void)scene;
     return ((const struct kiln_emitter *)emit)->parent.impact ? BOTH : 0;
+}
+
+unsigned kiln_row_if_ordered(const void *scene, const void *emit)
+{
+    (void)scene;
+    return ((const struct kiln_emitter *)emit)->ordered ? BOTH : 0;
 }
 
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter)

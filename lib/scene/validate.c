@@ -20,6 +20,7 @@
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
 #include "scene/scene_births.h"
+#include "scene/source.h"
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
@@ -273,7 +274,8 @@ static const char *shape_name(const struct kiln_emitter *emit)
         [KILN_EMITTER_POINT] = "point", [KILN_EMITTER_SPHERE] = "sphere",
         [KILN_EMITTER_BOX] = "box",     [KILN_EMITTER_DISC] = "disc",
         [KILN_EMITTER_CONE] = "cone",   [KILN_EMITTER_LINE] = "line",
-        [KILN_EMITTER_RING] = "ring",
+        [KILN_EMITTER_RING] = "ring",   [KILN_EMITTER_MESH] = "mesh",
+        [KILN_EMITTER_IMAGE] = "image", [KILN_EMITTER_PATH] = "path",
     };
     return names[emit->shape];
 }
@@ -581,6 +583,6 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && kiln_nodes_settle(reader, root) &&
            check_camera(reader, root) && check_backdrop(reader, root) &&
            check_systems(reader, root) && kiln_family_settle(reader, root) &&
-           settle_capacity(reader, root) && kiln_particle_mesh_count(reader, root) &&
-           kiln_samples_settle(reader, root);
+           kiln_sources_settle(reader, root) && settle_capacity(reader, root) &&
+           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root);
 }

@@ -16,7 +16,7 @@ struct kiln_birth_group {
     uint count;
     uint first;
     uint spacing;
-    uint unused;
+    uint is_burst; /* 1: all are born at one time */
 };
 
 /* Parameters by which the values of a particle that its record lacks are recomputed: see
@@ -35,9 +35,22 @@ struct kiln_derived_params {
 #define EMIT_DISC   3u
 #define EMIT_CONE   4u
 #define EMIT_LINE   5u
+/* These look up words in the buffer of the grids (shared/source.h). */
+#define EMIT_TRIANGLES 6u
+#define EMIT_VERTICES  7u
+#define EMIT_IMAGE     8u
+#define EMIT_PATH      9u
+#define EMIT_POSED     10u /* triangles of a mesh with an animation */
+#define EMIT_COLUMNS   11u /* the inside of a mesh */
 
-/* The bit of USES_EMITTERS for emitters that lie in nodes. */
+/* The bits of USES_EMITTERS for emitters whose bursts are in order, and that lie in nodes. */
+#define EMIT_ORDERED  30u
 #define EMIT_ATTACHED 31u
+
+/* How the births of a burst lie along a shape. */
+#define ORDER_RANDOM 0u
+#define ORDER_OPEN   1u /* from its first end to its last */
+#define ORDER_CLOSED 2u /* all around, so the last is next to the first */
 
 /* The frame of the node that an emitter lies in, during a step. After the part u of the step, its
  * place is a cubic of u, and it has turned by u times the angle of `spin`. */
@@ -63,8 +76,10 @@ struct kiln_emit_params {
     S(kiln_value) radius;
     S(kiln_value) inherit;
     S(kiln_value) turn;
-    uint attached; /* 1: the emitter lies in `frame` */
-    uint unused0, unused1, unused2;
+    uint attached;   /* 1: the emitter lies in `frame` */
+    uint first_word; /* of the cells of a mesh, an image or a path, in the buffer of the grids */
+    uint cells;      /* how many there are to choose from */
+    uint order;      /* ORDER_* */
     S(kiln_emit_frame) frame;
 };
 

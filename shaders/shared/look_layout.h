@@ -43,6 +43,10 @@
 #define LOOK_PART_MIRRORS    4u
 #define LOOK_PART_FLAG_SHIFT 4u
 
+/* The clock of a part that is the colour of what the particle was born on (shared/source.h): its
+ * row is the first texel of the source, and its number of octaves that of the source's cells. */
+#define LOOK_CLOCK_SOURCE 15u
+
 /* enum kiln_shape and enum kiln_facing of the scene. */
 #define LOOK_POINT     1u
 #define LOOK_LINE      2u

@@ -69,8 +69,9 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
                          KILN_PARTICLE_ALIVE;
     uint stream = particle_stream(STEP(derived), p);
     EXACT float born_s = particle_birth_time(STEP(derived), p);
+    EXACT float order = emit_order(SIM index);
     EXACT S(emit_state) born =
-        emit_particle(SIM stream, p.position_serial.w, born_s, particle_birth_fraction(p));
+        emit_particle(SIM stream, p.position_serial.w, born_s, particle_birth_fraction(p), order);
     return step_with_motion(p, born.position, born.velocity);
 }
 

@@ -237,6 +237,8 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
     else if (type == &kiln_type_mesh)
         ADD_ONE(c, "\"scenes/meshes/cabin.obj\"", "\"scenes/meshes/slab.obj\"",
                 "\"scenes/meshes/paper_plane.obj\"", "\"scenes/meshes/starling.obj\"");
+    else if (type == &kiln_type_image)
+        ADD_ONE(c, "\"scenes/textures/card.png\"", "\"scenes/textures/leaf_red.png\"");
     else if (type == &kiln_type_grid)
         ADD_ONE(c, "\"tests/support/whirl.grid\"");
     else if (type == &kiln_type_name)
@@ -267,9 +269,10 @@ static bool is_chosen(struct choice *c, const struct kiln_option *row, int depth
 {
     const bool needed = !row->fallback || row->type == &kiln_type_assets ||
                         row->type == &kiln_type_bursts || row->type == &kiln_type_map ||
-                        row->type == &kiln_type_group;
+                        row->type == &kiln_type_group || row->type == &kiln_type_image ||
+                        row->type == &kiln_type_mesh;
     if (row->is_unprinted || row->type == &kiln_type_text || row->type == &kiln_type_rational ||
-        row->type == &kiln_type_clip || depth > MOST_DEPTH)
+        row->type == &kiln_type_clip || row->type == &kiln_type_object || depth > MOST_DEPTH)
         return !row->fallback;
     return needed || take(c) % 4 == 3;
 }

@@ -117,7 +117,8 @@ static const struct text MIXED = {
     "      opacity: 0.01\n"
     "      temperature: 1700\n"};
 
-/* Looks whose values vary over every clock, and shapes of three kinds. */
+/* Looks whose values vary over every clock, or are the colours of an image and of a mesh, and
+ * shapes of three kinds. */
 static const struct text VALUES = {
     "values",
     "kiln: 1\n"
@@ -146,7 +147,14 @@ static const struct text VALUES = {
     "  points:\n"
     "    emit: {rate: 400, life: 2 s, speed: [1, 3], from: {cone: {}}}\n"
     "    look: {shape: point, point: {size: {choose: [2 px, 5 px, 9 px]}},\n"
-    "           color: [{random: [0, 1]}, 0.5, {age: {0 s: 0, 0.3 s: 1}, repeat: mirror}]}\n"};
+    "           color: [{random: [0, 1]}, 0.5, {age: {0 s: 0, 0.3 s: 1}, repeat: mirror}]}\n"
+    "  logo:\n"
+    "    emit: {rate: 900, life: 1 s, speed: 0.2,\n"
+    "           from: {image: {file: tests/sources/mark.png, width: 2 m, origin: [0, 1, 0]}}}\n"
+    "    look: {shape: point, size: 6 cm, color: source}\n"
+    "  quilt:\n"
+    "    emit: {rate: 900, life: 1 s, speed: 0.2, from: {mesh: {file: tests/sources/quilt.obj}}}\n"
+    "    look: {atlas: \"builtin:spark\", blend: add, size: 6 cm, color: source, intensity: 3}\n"};
 
 /* Loads a scene, and creates its stages and a stage for each technique. path: the scene's file, or
  * NULL to load `text`. */
@@ -158,6 +166,7 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = 2;
+    params.asset_root = path ? NULL : KILN_SOURCE_DIR;
     *s = (struct subject){.name = path ? strrchr(path, '/') + 1 : text->name,
                           .threads = kiln_threads_create(2)};
     s->scene = path ? kiln_scene_load(path, &params, &error)

@@ -335,13 +335,15 @@ static const struct bad kinds[] = {
      "region)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
-     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone, line, mesh, "
+     "image or path: {...}}, "
      "found "
      "a "
      "mapping"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: cone}}}\n",
-     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone, line, mesh, "
+     "image or path: {...}}, "
      "found "
      "'cone'"},
     {"kiln: 1\n"

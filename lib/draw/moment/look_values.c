@@ -89,6 +89,7 @@ struct own_value {
     unsigned count;
     struct place place;
     bool is_mean;
+    bool is_source; /* it is the colour of what the particle was born on */
 };
 
 struct own_values {
@@ -109,13 +110,14 @@ static void add_vector(struct own_values *own, const float4 *keys, const struct 
     const struct kiln_value *parts[3] = {&v->x, &v->y, &v->z};
     const bool whole = kiln_value3_is_whole(keys, v);
     if (whole && kiln_look_value_is_own(keys, &v->x)) {
-        add_own(own, (struct own_value){{parts[0], parts[1], parts[2]}, 3, place, false});
+        add_own(own,
+                (struct own_value){{parts[0], parts[1], parts[2]}, .count = 3, .place = place});
         return;
     }
     for (unsigned c = 0; c < 3 && !whole; c++) {
         place.lanes = 1u << c;
         if (kiln_look_value_is_own(keys, parts[c]))
-            add_own(own, (struct own_value){{parts[c]}, 1, place, false});
+            add_own(own, (struct own_value){{parts[c]}, .count = 1, .place = place});
     }
 }
 
@@ -128,12 +130,22 @@ static void find_own(const struct kiln_scene *scene, const struct kiln_look *loo
         const struct kiln_value *value =
             (const struct kiln_value *)((const char *)look + scalars[i].at);
         if (kiln_look_value_is_own(scene->keys, value))
-            add_own(own, (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean});
+            add_own(own, (struct own_value){{value},
+                                            .count = 1,
+                                            .place = scalars[i].place,
+                                            .is_mean = scalars[i].is_mean});
     }
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         const struct kiln_value3 *vector =
             (const struct kiln_value3 *)((const char *)look + vectors[i].at);
-        if (vectors[i].place.of == OF_ANY || (vectors[i].place.of == OF_FIRE) == additive)
+        if (vectors[i].place.of != OF_ANY && (vectors[i].place.of == OF_FIRE) != additive)
+            continue;
+        if (vector == &look->color && kiln_look_color_is_source(look))
+            add_own(own, (struct own_value){{&vector->x, &vector->y, &vector->z},
+                                            .count = 3,
+                                            .place = vectors[i].place,
+                                            .is_source = true});
+        else
             add_vector(own, scene->keys, vector, vectors[i].place);
     }
 }
@@ -149,6 +161,9 @@ static void replace_own(const float4 *keys, void *look, size_t at)
 struct kiln_look kiln_look_over_life(const float4 *keys, const struct kiln_look *look)
 {
     struct kiln_look over_life = *look;
+    const struct kiln_value one = {.constant = 1.0f};
+    if (kiln_look_color_is_source(look))
+        over_life.color = (struct kiln_value3){one, one, one};
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
         replace_own(keys, &over_life, scalars[i].at);
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
@@ -208,8 +223,26 @@ static void add_light(struct kiln_look_value *value, uint32_t row)
                              : 0.0f;
 }
 
+/* Makes the value that is the colour of a source, which the system may lack if it is not enabled.
+ */
+static struct kiln_look_value make_source_value(const struct own_value *from,
+                                                const struct kiln_source *source)
+{
+    return (struct kiln_look_value){
+        .target = from->place.target,
+        .lanes = from->place.lanes,
+        .parts = 1,
+        .part = {{.clock = LOOK_CLOCK_SOURCE,
+                  .row = source ? source->first_texel : 0,
+                  .octaves = source ? source->cells : 0,
+                  .source = source}},
+        .high = 1.0f,
+    };
+}
+
 static void make_program(const struct kiln_scene *scene, const struct own_values *own,
-                         uint32_t *rows, struct kiln_look_program *program)
+                         const struct kiln_source *source, uint32_t *rows,
+                         struct kiln_look_program *program)
 {
     *program = (struct kiln_look_program){.count = own->count, .row = *rows};
     *rows += own->count > 0 ? LOOK_PROGRAM_ROWS : 0;
@@ -217,6 +250,10 @@ static void make_program(const struct kiln_scene *scene, const struct own_values
         const struct own_value *from = &own->values[i];
         const struct kiln_value *first = from->components[0];
         struct kiln_look_value *value = &program->values[i];
+        if (from->is_source) {
+            *value = make_source_value(from, source);
+            continue;
+        }
         *value = (struct kiln_look_value){.target = from->place.target,
                                           .lanes = from->place.lanes,
                                           .low = kiln_value_least(scene->keys, first),
@@ -249,7 +286,7 @@ uint32_t kiln_look_rows(const struct kiln_scene *scene)
     uint32_t rows = base_rows(scene);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         find_own(scene, &scene->systems[i].look, &own);
-        make_program(scene, &own, &rows, &program);
+        make_program(scene, &own, scene->systems[i].emit.source.made, &rows, &program);
     }
     return rows;
 }
@@ -262,7 +299,7 @@ void kiln_look_programs_fill(const struct kiln_scene *scene,
     memset(programs, 0, KILN_MAX_SYSTEMS * sizeof *programs);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         find_own(scene, &scene->systems[i].look, &own);
-        make_program(scene, &own, &rows, &programs[i]);
+        make_program(scene, &own, scene->systems[i].emit.source.made, &rows, &programs[i]);
     }
 }
 
@@ -375,7 +412,7 @@ void kiln_look_programs_sample(const struct kiln_scene *scene,
             for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
                 for (uint32_t p = 0; p < VALUE_ENTRIES; p++) {
                     const struct kiln_look_part *part = &value->part[p];
-                    if (value->parts & 1u << p)
+                    if ((value->parts & 1u << p) && part->clock != LOOK_CLOCK_SOURCE)
                         *texel_at(table, part->row, k) =
                             part_texel(scene->keys, &own.values[v], p, part, &clocks, k);
                 }
@@ -443,6 +480,10 @@ static float repeat(const struct kiln_look_part *part, float x)
 float4 kiln_look_part_at(const float4 *table, const struct kiln_look_part *part,
                          const struct value_clocks *clocks)
 {
+    if (part->clock == LOOK_CLOCK_SOURCE) {
+        const float3 color = kiln_source_color(part->source, clocks->stream);
+        return (float4){color.x, color.y, color.z, color.x};
+    }
     float x = clock_of(part, clocks);
     if (part->flags & (LOOK_PART_LOOPS | LOOK_PART_MIRRORS))
         x = repeat(part, x);

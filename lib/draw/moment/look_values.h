@@ -6,6 +6,7 @@
 #define KILN_DRAW_MOMENT_LOOK_VALUES_H
 
 #include "scene/scene.h"
+#include "scene/source.h"
 #include "shared/look_layout.h"
 
 /* The most values of a system, which is as many as there are in the table's rows. */
@@ -22,6 +23,7 @@ struct kiln_look_part {
     float span;        /* of a repetition */
     float period_s;    /* of a noise */
     uint32_t octaves;
+    const struct kiln_source *source; /* with LOOK_CLOCK_SOURCE */
 };
 
 struct kiln_look_value {

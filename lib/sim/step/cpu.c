@@ -16,15 +16,16 @@ bool kiln_sim_cpu_step(kiln_slots_step *step_slots, struct kiln_threads *threads
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
     struct kiln_trace *scratch =
         params->trace_count ? kiln_buffer_host(traces, KILN_READ_WRITE, error) : NULL;
+    const bool has_words = params->grids->words.size > 0;
     const float4 *words =
-        params->grids->count ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
+        has_words ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
     const float4 *planes = params->grids->volumes.count
                                ? kiln_buffer_host(&params->grids->volumes.words, KILN_READ, error)
                                : NULL;
     const float4 *pushed = params->push_count ? kiln_buffer_host(pushes, KILN_READ, error) : NULL;
     uint4 *spins =
         params->spin_count ? kiln_buffer_host(&pool->spins, KILN_READ_WRITE, error) : NULL;
-    if (!records || (params->trace_count && !scratch) || (params->grids->count && !words) ||
+    if (!records || (params->trace_count && !scratch) || (has_words && !words) ||
         (params->grids->volumes.count && !planes) || (params->push_count && !pushed) ||
         (params->spin_count && !spins))
         return false;

@@ -113,10 +113,17 @@ bool kiln_newborn_show(struct kiln_newborn *newborn, struct kiln_sim_params *par
     if (!kiln_sim_params_births(params, scene, pool, step + 1, error) ||
         !find_places(&places, pool, error))
         return false;
+    const float4 *words = NULL;
+    if (params->grids->has_sources) {
+        words = kiln_buffer_host(&params->grids->words, KILN_READ, error);
+        if (!words)
+            return false;
+    }
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_sim sim = {.step = &params->systems[i],
                                      .surroundings = &params->surroundings,
-                                     .value_keys = scene->keys};
+                                     .value_keys = scene->keys,
+                                     .grid_words = words};
         uint32_t index = births[i].of_rate;
         for (uint32_t g = births[i].of_rate > 0; g < births[i].group_count; g++) {
             const struct kiln_birth_group *group = &births[i].groups[g];

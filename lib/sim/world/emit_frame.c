@@ -32,14 +32,24 @@ static float4 to_float4(const double v[3], double w)
                   exact_canon((float)w));
 }
 
-struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene, uint32_t node, uint32_t step)
+/* Returns the frame of the node or of the object that an emitter lies in. */
+static struct kiln_node_frame frame_at(const struct kiln_scene *scene,
+                                       const struct kiln_emitter *emit, float time_s, float rate_s)
+{
+    if (emit->source.of_object)
+        return kiln_object_frame_at(scene, &scene->backdrop.objects[emit->source.number], time_s,
+                                    rate_s);
+    return kiln_node_frame_at(scene, emit->attach.node, time_s, rate_s);
+}
+
+struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene,
+                                       const struct kiln_emitter *emit, uint32_t step)
 {
     const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
     const double steps_per_s = (double)scene->rate.num / (double)scene->rate.den;
     const double dt_s = 1 / steps_per_s;
-    const struct kiln_node_frame start = kiln_node_frame_at(scene, node, start_s, start_s);
-    struct kiln_node_frame end =
-        kiln_node_frame_at(scene, node, end_s, nextafterf(end_s, -INFINITY));
+    const struct kiln_node_frame start = frame_at(scene, emit, start_s, start_s);
+    struct kiln_node_frame end = frame_at(scene, emit, end_s, nextafterf(end_s, -INFINITY));
     double linear[3], square[3], cube[3];
     if (jumps(&start, &end, dt_s)) {
         end = start;

@@ -6,8 +6,11 @@
 
 #include "asset/geometry/grid_in.h"
 #include "asset/geometry/nearest.h"
+#include "base/error.h"
+#include "scene/source.h"
 #include "shared/exact.h"
 #include "sim/world/papers/papers.h"
+#include "sim/world/posed_births.h"
 
 /* The grids of meshes by how particles collide with them. */
 static const struct kiln_mesh_row *const MESH_ROWS[KILN_COLLIDER_KINDS] = {
@@ -171,6 +174,29 @@ static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
     return total;
 }
 
+/* Places what particles are born on, behind the grids. Returns the number of words of all. */
+static size_t place_births(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
+                           size_t total)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        grids->sources[i] = (uint32_t)total;
+        total += source ? source->word_count : 0;
+    }
+    return total;
+}
+
+static void copy_births(float4 *words, const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        if (!source)
+            continue;
+        memcpy(words, source->words, source->word_count * sizeof *words);
+        words += source->word_count;
+    }
+}
+
 static void copy_terrain(float4 *words, const struct kiln_terrain *terrain, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -208,8 +234,15 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
                  const struct kiln_scene *scene, const struct sources *sources,
                  struct kiln_error *error)
 {
-    const size_t total = place(grids, sources);
-    kiln_buffer_init(&grids->words, device, total * sizeof(float4), "grids");
+    const size_t total = place_births(grids, scene, place(grids, sources));
+    const size_t bytes = total * sizeof(float4);
+    if (device && bytes > (uint64_t)device->info.max_storage_block_bytes)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "grids, and what particles are born on, take %zu bytes; %s allows "
+                              "%llu; use simulate=cpu",
+                              bytes, device->info.name,
+                              (unsigned long long)device->info.max_storage_block_bytes);
+    kiln_buffer_init(&grids->words, device, bytes, "grids");
     float4 *words = kiln_buffer_host(&grids->words, KILN_OVERWRITE, error);
     if (!words)
         return false;
@@ -220,6 +253,7 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
         copy_words(words, sources, grids->wind_count, i, count);
         words += count;
     }
+    copy_births(words, scene);
     return true;
 }
 
@@ -228,14 +262,16 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
                          struct kiln_error *error)
 {
     *grids = (struct kiln_sim_grids){
-        .key_words = device && kiln_scene_stores_keys(scene) ? scene->key_count : 0};
+        .key_words = device && kiln_scene_stores_keys(scene) ? scene->key_count : 0,
+        .has_sources = kiln_sources_words(scene) > 0};
     kiln_buffer_init(&grids->words, device, 0, "grids");
     list_files(grids, scene);
     struct sources sources = {.winds = {NULL}};
-    const bool ok =
-        load(grids, scene, &sources, threads, error) &&
-        (grids->count + grids->key_words == 0 || fill(grids, device, scene, &sources, error)) &&
-        kiln_volumes_init(&grids->volumes, device, scene, error);
+    const bool ok = load(grids, scene, &sources, threads, error) &&
+                    (grids->count + grids->key_words + grids->has_sources == 0 ||
+                     fill(grids, device, scene, &sources, error)) &&
+                    kiln_sim_posed_init(grids, scene, error) &&
+                    kiln_volumes_init(&grids->volumes, device, scene, error);
     free_sources(&sources);
     return ok;
 }
@@ -254,11 +290,16 @@ void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footpr
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, scene->samples, sizeof(float4));
     kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
                         scene->samples * sizeof(struct kiln_terrain_point) + making);
+    /* The scene has the words of sources, too. */
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_words(scene),
+                       2 * sizeof(float4));
+    kiln_sim_posed_footprint(scene, footprint);
     kiln_volumes_footprint(scene, footprint);
 }
 
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids)
 {
+    kiln_sim_posed_finish(grids);
     kiln_buffer_finish(&grids->words);
     kiln_volumes_finish(&grids->volumes);
     *grids = (struct kiln_sim_grids){.count = 0};

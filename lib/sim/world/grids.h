@@ -1,6 +1,7 @@
 /* Loads the grids that a scene's forces and colliders look up. All grids lie in one buffer; a table
- * says where each begins. In GL the buffer also has the keys of a scene that has too many for a
- * uniform block, since few storage blocks are guaranteed. */
+ * says where each begins. The words of the meshes, images and paths that particles are born on lie
+ * behind them (scene/source.h). In GL the buffer also has the keys of a scene that has too many for
+ * a uniform block, since few storage blocks are guaranteed. */
 #ifndef KILN_SIM_WORLD_GRIDS_H
 #define KILN_SIM_WORLD_GRIDS_H
 
@@ -22,6 +23,12 @@ struct kiln_sim_grids {
     /* words of all grids, as float4; in GL, the scene's keys lie before them if they are stored */
     struct kiln_buffer words;
     size_t key_words;
+    uint32_t sources[KILN_MAX_SYSTEMS]; /* first word of what a system is born on */
+    bool has_sources;
+    /* of a system that is born on a mesh with an animation: its vertices at both ends of a step,
+     * and the step */
+    float (*poses[KILN_MAX_SYSTEMS])[6];
+    uint32_t posed_step[KILN_MAX_SYSTEMS];
     struct kiln_volumes volumes;
 };
 

@@ -8,12 +8,14 @@
 
 #include "base/error.h"
 #include "scene/scene_births.h"
+#include "scene/source.h"
 #include "shared/exact.h"
 #include "shared/forces.h"
 #include "shared/random.h"
 #include "shared/trace.h"
 #include "sim/world/colliders.h"
 #include "sim/world/emit_frame.h"
+#include "sim/world/posed_births.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
@@ -66,11 +68,40 @@ static float4 to_float4(const float v[3])
     return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
 }
 
+static uint shape_of(const struct kiln_emitter *emit)
+{
+    switch (emit->shape) {
+    case KILN_EMITTER_RING:
+        return EMIT_DISC;
+    case KILN_EMITTER_MESH:
+        if (emit->source.on == KILN_ON_VERTICES)
+            return EMIT_VERTICES;
+        if (emit->source.on == KILN_ON_VOLUME)
+            return EMIT_COLUMNS;
+        return emit->source.made && emit->source.made->corners ? EMIT_POSED : EMIT_TRIANGLES;
+    case KILN_EMITTER_IMAGE:
+        return EMIT_IMAGE;
+    case KILN_EMITTER_PATH:
+        return EMIT_PATH;
+    default:
+        return (uint)emit->shape;
+    }
+}
+
+static uint order_of(const struct kiln_emitter *emit)
+{
+    const bool closed = emit->shape == KILN_EMITTER_RING ||
+                        (emit->shape == KILN_EMITTER_PATH && emit->source.path.closed);
+    if (!emit->ordered)
+        return ORDER_RANDOM;
+    return closed ? ORDER_CLOSED : ORDER_OPEN;
+}
+
 static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emitter *emit)
 {
     const bool ring = emit->shape == KILN_EMITTER_RING;
     *params = (struct kiln_emit_params){
-        .shape = ring ? EMIT_DISC : (uint)emit->shape,
+        .shape = shape_of(emit),
         .outward = emit->outward,
         .surface = ring || emit->surface,
         .nozzles = emit->nozzles,
@@ -82,8 +113,12 @@ static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emit
         .radius = emit->radius,
         .inherit = emit->inherit,
         .turn = emit->turn,
-        .attached = emit->attach.name != NULL,
+        .attached = emit->attach.name != NULL || emit->source.of_object,
+        .cells = emit->source.made ? emit->source.made->cells : 0,
+        .order = order_of(emit),
     };
+    if (params->shape == EMIT_IMAGE || params->shape == EMIT_COLUMNS)
+        params->size.x = (struct kiln_value){.constant = emit->source.edge};
 }
 
 static uint collide_kind(const struct kiln_collide *collide)
@@ -261,8 +296,10 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     for (uint32_t i = 0; i < grids->count; i++)
         params->surroundings.grids[i] = grids->table[i];
     params->system_count = scene->system_count;
-    for (uint32_t i = 0; i < scene->system_count; i++)
+    for (uint32_t i = 0; i < scene->system_count; i++) {
         fill_system(&params->systems[i], scene, i);
+        params->systems[i].emit.first_word = grids->sources[i];
+    }
     fill_families(params, scene);
     fill_pushes(params, scene);
     fill_spins(params, scene);
@@ -417,6 +454,8 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
     if (step == 0 || step > KILN_MAX_STEPS)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: step %u; a run has at most %u steps",
                               scene->name, step, KILN_MAX_STEPS);
+    if (!kiln_sim_pose_births(params->grids, scene, step, error))
+        return false;
     for (uint32_t n = 0; n < params->system_count; n++) {
         uint32_t i = params->order[n];
         struct kiln_step_params *p = &params->systems[i];
@@ -431,7 +470,7 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
         p->used = kiln_pool_used(&pool->systems[i]);
         find_spin(p, scene, i, p->time_s);
         if (p->emit.attached)
-            p->emit.frame = kiln_emit_frame(scene, scene->systems[i].emit.attach.node, step);
+            p->emit.frame = kiln_emit_frame(scene, &scene->systems[i].emit, step);
     }
     return true;
 }

@@ -9,6 +9,35 @@ vec4 look_texel(int first_row, int texel)
     return texelFetch(look_table, at, 0);
 }
 
+#ifdef LOOK_SOURCES
+
+#include "shared/source.h"
+
+layout(binding = KILN_UNIT_SOURCES) uniform usampler2D source_texels;
+
+uvec4 source_texel(int number)
+{
+    return texelFetch(source_texels, ivec2(number % SOURCE_ROW, number / SOURCE_ROW), 0);
+}
+
+/* Returns the colour of the place where a particle was born, as kiln_source_color does on the host.
+ * first: texel of the first of the source's cells. */
+vec3 source_color(int first, int cells, uint stream)
+{
+    uint turn = source_turn(stream, uint(cells));
+    uvec4 cell = source_texel(first + int(turn));
+    uint chosen = source_choose(stream, turn, uintBitsToFloat(cell.x), cell.y);
+    cell = source_texel(first + int(chosen));
+    uint number = cell.z;
+    if (cell.w > 1u)
+        number += source_color_of(source_spot_on_triangle(stream), cell.w);
+    uint color = source_texel(first + cells + int(number / 4u))[number % 4u];
+    return vec3(source_component(color, 0u), source_component(color, 1u),
+                source_component(color, 2u));
+}
+
+#endif
+
 /* A part of a value: its own curve, what multiplies it, or what is added to it. */
 struct look_part {
     uint clock, flags, draw;
@@ -63,6 +92,12 @@ float look_repeat(look_part part, float x)
 /* Returns a part's components, or the same number for all. */
 vec4 look_part_at(look_part part, value_clocks clocks)
 {
+#ifdef LOOK_SOURCES
+    if (part.clock == LOOK_CLOCK_SOURCE) {
+        vec3 color = source_color(part.row, part.count, clocks.stream);
+        return vec4(color, color.x);
+    }
+#endif
     float x = look_clock(part, clocks);
     if ((part.flags & (LOOK_PART_LOOPS | LOOK_PART_MIRRORS)) != 0u)
         x = look_repeat(part, x);

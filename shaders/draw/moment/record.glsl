@@ -3,7 +3,8 @@
  * after shared/draw_layout.h. kiln_moment_bind (lib/draw/moment/moment_gl.c) binds the buffers, and
  * kiln_draw_blocks_bind binds view_block.
  *
- * The host defines LOOK_VALUES for a scene whose looks have values over other clocks than life, and
+ * The host defines LOOK_VALUES for a scene whose looks have values over other clocks than life,
+ * LOOK_SOURCES for one whose particles have the colours of what they were born on, and
  * USES_CLOCKS (shared/value.h) for one whose lives are more than curves over time
  * (kiln_moment_gl_defines). Other scenes get a shader that compiles faster.
  *
