@@ -6,8 +6,14 @@
 
 #include "shared/derived.h"
 
-/* Returns the 64ths of the step that have passed at birth number `index` of this step. */
-FN uint emit_birth_fraction(SIM_PARAM uint index)
+/* The time of a birth of this step. */
+struct emit_time {
+    uint sixty_fourths; /* the time: 64ths of the step */
+    float place;        /* the part of the step at whose end the emitter is where it gives birth */
+};
+
+/* Returns the time of birth number `index` of this step. */
+FN S(emit_time) emit_birth_time(SIM_PARAM uint index)
 {
     uint j = index;
     uint group = 0u;
@@ -15,7 +21,12 @@ FN uint emit_birth_fraction(SIM_PARAM uint index)
         j -= STEP(groups[group].count);
         group++;
     }
-    return (STEP(groups[group].first) + j * STEP(groups[group].spacing)) >> 26u;
+    uint at = STEP(groups[group].first) + j * STEP(groups[group].spacing);
+    EXACT S(emit_time) time;
+    time.sixty_fourths = at >> 26u;
+    uint kept = STEP(groups[group].by_way) != 0u ? at >> 8u : time.sixty_fourths << 18u;
+    time.place = FLOAT(INT(kept)) * 5.9604644775390625e-8f;
+    return time;
 }
 
 struct emit_place {
