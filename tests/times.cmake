@@ -35,9 +35,9 @@ set(kiln_test_times
     "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort
         all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers golden.suite gpu.backdrops
         queue.attacks report.page tree.flicker"
-    "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.nodes all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.simulate
+    "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.nodes all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.events gpu.simulate
         tree.tidy/4"
-    "80 all.unit.scene_place farm.slurm package.ci package.container"
+    "80 all.gpu.events all.unit.scene_place farm.slurm package.ci package.container"
     "120 package.install sanitize.build"
     "300 all.hostile_swap hostile_slow_helper_full package.release"
 )

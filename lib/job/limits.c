@@ -12,6 +12,7 @@
 #include "option/node_copy.h"
 #include "option/params.h"
 #include "option/unit.h"
+#include "scene/emit_way.h"
 #include "scene/small_steps.h"
 #include "scene/source.h"
 
@@ -183,6 +184,7 @@ static const struct size {
     {"parameters", KILN_MAX_PARAMS, .help = "Parameters"},
     {"includes", KILN_INCLUDE_MAX_FILES, .help = "Included files, through at most 8 files"},
     {"copies", KILN_NODE_MAX_COPIES, .help = "Nodes that aliases, uses and parameters copy"},
+    {"ways", KILN_MAX_WAY_STEPS, .help = "Steps of the ways of emitters by the metre, in all"},
     {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
     {"sources", KILN_MAX_SOURCE_CELLS,
      .help = "Triangles, vertices and pixels that particles are born on"},

@@ -49,6 +49,28 @@ static void add_rate(const struct kiln_births_source *source, uint32_t step, uin
     *wait = (uint64_t)((*wait + count * units_per_birth - rate_units) % units_per_birth);
 }
 
+/* Adds births by the way. The n-th one happens when the way is that of n births. */
+static void add_way(const struct kiln_births_source *source, uint32_t step,
+                    struct kiln_births *births)
+{
+    if (!source->by_way || step >= source->way_count)
+        return;
+    const uint64_t from = source->by_way[step - 1], to = source->by_way[step];
+    const uint64_t count = (to >> 32) - (from >> 32);
+    if (count == 0 || count > UINT32_MAX)
+        return;
+    const wide way = to - from;
+    const uint64_t until_first = (((from >> 32) + 1) << 32) - from;
+    const wide spacing = count > 1 ? ((wide)1 << 64) / way : 0;
+    wide first = ((wide)until_first << 32) / way;
+    if (first + (count - 1) * spacing > UINT32_MAX) /* the last one is at the very end */
+        first--;
+    add_group(births, (struct kiln_birth_group){.count = (uint32_t)count,
+                                                .first = (uint32_t)first,
+                                                .spacing = (uint32_t)spacing,
+                                                .kind = BIRTHS_BY_WAY});
+}
+
 /* Returns the number of particles of a repetition. purpose: its first random number. */
 static uint32_t count_of(const struct kiln_burst *burst, uint32_t stream, uint32_t purpose)
 {
@@ -70,12 +92,12 @@ static void add_burst(const struct kiln_births_source *source, uint32_t i, uint3
     double start = ((double)step - 1.0) * 64.0;
     if (!(parts >= start && parts < start + 64.0))
         return;
-    if (births->group_count - (births->of_rate > 0) == KILN_MAX_BURSTS)
+    if (births->group_count - births->steady_groups == KILN_MAX_BURSTS)
         births->left_out = true;
     else
         add_group(births, (struct kiln_birth_group){.count = count_of(burst, stream, purpose),
                                                     .first = (uint32_t)(parts - start) << 26,
-                                                    .is_burst = 1});
+                                                    .kind = BIRTHS_BURST});
 }
 
 /* Adds the repetitions of burst number i that happen in the step. Looks at all that may: a little
@@ -113,11 +135,12 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
                       struct kiln_births *births)
 {
     births->count = 0;
-    births->of_rate = 0;
     births->left_out = false;
     births->group_count = 0;
     add_rate(source, step, wait, births);
-    births->of_rate = births->count;
+    add_way(source, step, births);
+    births->steady = births->count;
+    births->steady_groups = births->group_count;
     add_bursts(source, step, births);
 }
 

@@ -50,8 +50,8 @@ struct kiln_emit_source {
 
 enum kiln_event {
     KILN_EVENT_DEATH,  /* the end of the parent's life */
-    KILN_EVENT_BOUNCE, /* the parent's first impact */
-    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly */
+    KILN_EVENT_BOUNCE, /* the parent's first impact, or each one */
+    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly in time or along its way */
 };
 
 enum kiln_align {
@@ -67,15 +67,22 @@ struct kiln_parent {
     uint32_t system; /* index of that system */
     enum kiln_event event;
     enum kiln_align align;
-    uint32_t count[2];      /* death, bounce: the fewest and the most children of one parent */
-    bool impact;            /* death: a death at an impact counts as well */
+    uint32_t count[2]; /* death, bounce: the fewest and the most children of one event */
+    bool impact;       /* death: a death at an impact counts as well */
+    bool every;        /* bounce: each of the first `hits` impacts has children */
+    uint32_t hits;
     struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
+    double per_metre;       /* trail: children a metre of the parent's way; 0: by the rate */
+    uint32_t most;          /* trail by the metre: the most children of one parent */
     uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
 };
 
 struct kiln_emitter {
     struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
     struct kiln_value rate;    /* particles a second; clock constant or time */
+    double per_metre;          /* particles a metre of the emitter's way */
+    const uint64_t *by_way;    /* follows from it: see struct kiln_births_source; or NULL */
+    uint32_t way_count;
     struct kiln_burst bursts[KILN_MAX_BURSTS];
     uint32_t burst_count;
     struct kiln_range life;  /* s, at birth */

@@ -19,6 +19,35 @@ bool kiln_family_has_children(const struct kiln_scene *scene, uint32_t system)
     return false;
 }
 
+uint32_t kiln_family_counted_hits(const struct kiln_scene *scene, uint32_t system)
+{
+    uint32_t hits = 1;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_parent *parent = &scene->systems[i].emit.parent;
+        if (scene->systems[i].enabled && parent->enabled && parent->system == system &&
+            parent->event == KILN_EVENT_BOUNCE && parent->every)
+            hits = parent->hits > hits ? parent->hits : hits;
+    }
+    return hits;
+}
+
+/* Returns whether children are born by the metre of their parent's way. */
+static bool is_by_way(const struct kiln_parent *parent)
+{
+    return parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0;
+}
+
+bool kiln_family_travels(const struct kiln_scene *scene, uint32_t system)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_parent *parent = &scene->systems[i].emit.parent;
+        any = any || (scene->systems[i].enabled && parent->enabled && parent->system == system &&
+                      is_by_way(parent));
+    }
+    return any || kiln_family_counted_hits(scene, system) > KILN_PARTICLE_MOST_HITS;
+}
+
 /* Returns a system's generation: 1 without a parent, else that of the parent + 1. */
 static uint32_t generation(const struct kiln_scene *scene, uint32_t system)
 {
@@ -70,8 +99,12 @@ static double most_of_a_life(const struct kiln_scene *scene, const struct kiln_v
 
 uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_parent *parent)
 {
+    if (parent->event == KILN_EVENT_BOUNCE && parent->every)
+        return (uint64_t)parent->count[1] * parent->hits;
     if (parent->event != KILN_EVENT_TRAIL)
         return parent->count[1];
+    if (is_by_way(parent))
+        return parent->most;
     /* child j is born if the float sum * life, which rises with the life, passes j */
     double sum = most_of_a_life(scene, &parent->rate);
     double most = sum * (double)longest_life_s(scene, parent->system) * (1 + 0x1p-20);
@@ -169,13 +202,19 @@ static bool check_births(struct kiln_reader *reader, const struct kiln_node *roo
         return kiln_reader_error_at(
             reader, root, path,
             "must be 0 for a system with a parent; emit.parent.on sets the number of births");
+    snprintf(path, sizeof path, "systems.%s.emit.per_metre", system->name);
+    if (system->emit.per_metre > 0)
+        return kiln_reader_error_at(
+            reader, root, path,
+            "must be 0 for a system with a parent; emit.parent.on sets the number of births");
     snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
     if (system->emit.burst_count > 0)
         return kiln_reader_error_at(
             reader, root, path,
             "must be {} for a system with a parent; emit.parent.on sets the number of births");
     snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
-    if (parent->event == KILN_EVENT_TRAIL && kiln_scene_value_max(scene, &parent->rate) <= 0)
+    if (parent->event == KILN_EVENT_TRAIL && !is_by_way(parent) &&
+        kiln_scene_value_max(scene, &parent->rate) <= 0)
         return kiln_reader_error_at(reader, root, path,
                                     "the rate is 0 at all times; it must be above 0");
     if (parent->event == KILN_EVENT_BOUNCE && !born_of->collide.enabled)

@@ -94,6 +94,11 @@ float kiln_attached_length(const struct kiln_scene *scene, const struct kiln_att
 void kiln_attached_rotation(const struct kiln_scene *scene, const struct kiln_attach *attach,
                             float columns[3][3], float time_s);
 
+/* Computes the velocity in the world, m/s, of a point that is attached and moves by `rate` in the
+ * node's frame. */
+void kiln_attached_velocity(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                            float3 point, float3 rate, float time_s, double velocity[3]);
+
 /* Return what an object is in the world at a clip time: its centre, its edges, the direction of its
  * axis, a radius or height, and its rotation. */
 float3 kiln_object_center(const struct kiln_scene *scene, const struct kiln_object *object,

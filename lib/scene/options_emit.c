@@ -245,6 +245,12 @@ TABLE(death) = {
 
 TABLE(bounce) = {
     COUNT,
+    BOOLEAN(
+        IF_EACH_BOUNCE, "every", parent.every, "false",
+        "Particles are born at each impact, up to `most`. Each draws its own count. At most one "
+        "impact counts in a step; a particle that lies on a surface has one in each."),
+    INTEGER(IF_EACH_BOUNCE, "most", parent.hits, 1, 1000, "3",
+            "With `every`: the number of impacts of one particle that give birth."),
     ALIGN(aligns, "`velocity` turns it to the velocity of the parent's particle after the bounce. "
                   "`normal` turns it away from the surface."),
     END,
@@ -254,6 +260,13 @@ TABLE(trail) = {
     VALUE(MOTION, "rate", parent.rate, KILN_PER_SECOND, 0, 1e6, SUMMED(11), "20",
           "Particles born a second while a particle of the parent lives. `life` and `random` are "
           "those of the parent's particle."),
+    {ROW(IF_BY_METRE, "per_metre", number, parent.per_metre, "0 1/m",
+         "Particles born a metre of the way of a particle of the parent, at even distances, "
+         "instead "
+         "of `rate`. With 0, the rate counts."),
+     LIMITS(KILN_PER_METRE, 0, 100000)},
+    INTEGER(IF_BY_METRE, "most", parent.most, 1, 65536, "256",
+            "With `per_metre`: the most particles born of one particle of the parent."),
     ALIGN(aligns_in_flight, TO_VELOCITY),
     END,
 };
@@ -270,8 +283,9 @@ KINDS(events) = {
      .value = KILN_EVENT_BOUNCE,
      MEMBERS(bounce),
      .shortcut = "count",
-     .help = "Particles are born when a particle of the parent first meets a surface. They inherit "
-             "its velocity after the bounce."},
+     .help =
+         "Particles are born when a particle of the parent first meets a surface, or with `every` "
+         "each time. They inherit its velocity after the bounce."},
     {.name = "trail",
      .value = KILN_EVENT_TRAIL,
      MEMBERS(trail),
@@ -294,6 +308,11 @@ TABLE(emit_options) = {
            "The particles are born of another system's particles, not by `rate` and `bursts`. The "
            "shape `from` then lies around the parent's particle."),
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
+    {ROW(IF_EMITTED_BY_METRE, "per_metre", number, per_metre, "0 1/m",
+         "Particles born a metre of the way of the origin of `from`, at even distances, beside "
+         "those "
+         "of `rate`. The origin moves if it has keys, or by the node that it is attached to."),
+     LIMITS(KILN_PER_METRE, 0, 100000)},
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
          "Particles that are born at once: a map of clip times, in seconds, to their numbers, or a "
          "list of bursts that may be repeated. The frame at 0 s shows those of 0 s, at age 0; "
@@ -328,6 +347,7 @@ static const char *const thens[] = {
     [KILN_THEN_BOUNCE] = "bounce",
     [KILN_THEN_DIE] = "die",
     [KILN_THEN_STOP] = "stop",
+    [KILN_THEN_STICK] = "stick",
     NULL,
 };
 
@@ -356,7 +376,7 @@ TABLE(collide_options) = {
         IF_STOPS, "then", then, thens, "bounce",
         "What an impact does. `bounce` lets a particle bounce. `die` ends it. `stop` lets it rest "
         "where it hit, without forces, until its life ends; it stays there also if the object "
-        "moves on."),
+        "moves on. `stick` is the same, but the particle rides an object that moves or turns."),
     VALUE(IF_NOT_CERTAIN, "chance", chance, KILN_FRACTION, 0, 1, LIFE(99), "1",
           "Chance of the first impact in a step to do what `then` says. Otherwise the particle "
           "bounces."),

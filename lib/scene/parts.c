@@ -111,7 +111,7 @@ unsigned kiln_row_if_region(const void *scene, const void *force)
 unsigned kiln_row_if_stops(const void *scene, const void *collide)
 {
     (void)scene;
-    return ((const struct kiln_collide *)collide)->then == KILN_THEN_STOP ? BOTH : 0;
+    return ((const struct kiln_collide *)collide)->then >= KILN_THEN_STOP ? BOTH : 0;
 }
 
 unsigned kiln_row_if_not_certain(const void *scene, const void *collide)
@@ -131,6 +131,26 @@ unsigned kiln_row_if_ordered(const void *scene, const void *emit)
 {
     (void)scene;
     return ((const struct kiln_emitter *)emit)->ordered ? BOTH : 0;
+}
+
+unsigned kiln_row_if_each_bounce(const void *scene, const void *emit)
+{
+    (void)scene;
+    const struct kiln_parent *parent = &((const struct kiln_emitter *)emit)->parent;
+    return parent->event == KILN_EVENT_BOUNCE && parent->every ? BOTH : 0;
+}
+
+unsigned kiln_row_if_by_metre(const void *scene, const void *emit)
+{
+    (void)scene;
+    const struct kiln_parent *parent = &((const struct kiln_emitter *)emit)->parent;
+    return parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0 ? BOTH : 0;
+}
+
+unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit)
+{
+    (void)scene;
+    return ((const struct kiln_emitter *)emit)->per_metre > 0 ? BOTH : 0;
 }
 
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter)

@@ -40,6 +40,16 @@ unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
 unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
 /* Returns the bits of all parts if the births of bursts are in order, and otherwise 0. */
 unsigned kiln_row_if_ordered(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if each impact of a parent has children, and otherwise 0. */
+unsigned kiln_row_if_each_bounce(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if children are born by the metre, and otherwise 0. */
+unsigned kiln_row_if_by_metre(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if an emitter has births by the metre, and otherwise 0. */
+unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit);
+
 /* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
  * kiln_force, kiln_object, kiln_light or kiln_camera. */
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
@@ -69,6 +79,9 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_STOPS                 kiln_row_if_stops
 #define IF_IMPACTS_COUNT         kiln_row_if_impacts_count
 #define IF_ORDERED               kiln_row_if_ordered
+#define IF_EACH_BOUNCE           kiln_row_if_each_bounce
+#define IF_BY_METRE              kiln_row_if_by_metre
+#define IF_EMITTED_BY_METRE      kiln_row_if_emitted_by_metre
 #define IF_NOT_CERTAIN           kiln_row_if_not_certain
 #define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
 #define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached

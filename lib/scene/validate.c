@@ -10,6 +10,7 @@
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
 #include "scene/asset_path.h"
+#include "scene/emit_way.h"
 #include "scene/family.h"
 #include "scene/instant.h"
 #include "scene/look_defaults.h"
@@ -315,14 +316,18 @@ static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *r
                            struct kiln_system *system)
 {
     struct kiln_collide *collide = &system->collide;
+    const bool stops = collide->then >= KILN_THEN_STOP;
+    const char *word = collide->then == KILN_THEN_STICK ? "stick" : "stop";
     char path[128];
     snprintf(path, sizeof path, "systems.%s.collide.then", system->name);
-    if (collide->dies && collide->then == KILN_THEN_STOP)
-        return kiln_reader_error_at(reader, root, path, "must not be stop where `dies` is true");
-    if (collide->enabled && collide->then == KILN_THEN_STOP && system->interaction_count > 0)
+    if (collide->dies && stops)
+        return kiln_reader_error_at(reader, root, path, "must not be %s where `dies` is true",
+                                    word);
+    if (collide->enabled && stops && system->interaction_count > 0)
         return kiln_reader_error_at(reader, root, path,
-                                    "must not be stop where particles interact, since nothing "
-                                    "pushes a particle that has stopped");
+                                    "must not be %s where particles interact, since nothing "
+                                    "pushes a particle that has stopped",
+                                    word);
     collide->dies |= collide->then == KILN_THEN_DIE;
     if (collide->dies)
         collide->then = KILN_THEN_DIE;
@@ -583,6 +588,7 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && kiln_nodes_settle(reader, root) &&
            check_camera(reader, root) && check_backdrop(reader, root) &&
            check_systems(reader, root) && kiln_family_settle(reader, root) &&
-           kiln_sources_settle(reader, root) && settle_capacity(reader, root) &&
-           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root);
+           kiln_sources_settle(reader, root) && kiln_emit_ways_settle(reader, root) &&
+           settle_capacity(reader, root) && kiln_particle_mesh_count(reader, root) &&
+           kiln_samples_settle(reader, root);
 }

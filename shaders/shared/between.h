@@ -13,6 +13,7 @@
 #include "shared/derived.h"
 #include "shared/spin.h"
 
+/* Returns a particle at another place, with another velocity unless it has stopped. */
 FN S(kiln_particle) between_with_motion(S(kiln_particle) p, float3 position, float3 velocity)
 {
     S(kiln_particle) moved;
@@ -20,6 +21,8 @@ FN S(kiln_particle) between_with_motion(S(kiln_particle) p, float3 position, flo
                                   FLOAT_BITS(position.z), p.position_serial.w);
     moved.velocity_birth = UINT4(FLOAT_BITS(velocity.x), FLOAT_BITS(velocity.y),
                                  FLOAT_BITS(velocity.z), p.velocity_birth.w);
+    if (particle_has_stopped(p))
+        moved.velocity_birth = p.velocity_birth;
     return moved;
 }
 

@@ -14,13 +14,19 @@ FN uint particle_stream(S(kiln_derived_params) d, S(kiln_particle) p)
     return random_stream(d.random_key, p.position_serial.w);
 }
 
+/* Returns the clip time after a part of the step of a particle's birth, s. */
+FN float particle_birth_time_at(S(kiln_derived_params) d, S(kiln_particle) p, float part)
+{
+    EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
+    EXACT float steps = before + part;
+    EXACT float time_s = steps * d.dt_s;
+    return time_s;
+}
+
 /* Returns the clip time of a particle's birth, s. */
 FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
 {
-    EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
-    EXACT float steps = before + particle_birth_fraction(p);
-    EXACT float time_s = steps * d.dt_s;
-    return time_s;
+    return particle_birth_time_at(d, p, particle_birth_fraction(p));
 }
 
 /* Returns the length of a particle's life, s. */

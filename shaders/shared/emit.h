@@ -7,8 +7,14 @@
 #include "shared/derived.h"
 #include "shared/source.h"
 
-/* Returns the 64ths of the step that have passed at birth number `index` of this step. */
-FN uint emit_birth_fraction(SIM_PARAM uint index)
+/* The time of a birth of this step. */
+struct emit_time {
+    uint sixty_fourths; /* the time: 64ths of the step */
+    float place;        /* the part of the step at whose end the emitter is where it gives birth */
+};
+
+/* Returns the time of birth number `index` of this step. */
+FN S(emit_time) emit_birth_time(SIM_PARAM uint index)
 {
     uint j = index;
     uint group = 0u;
@@ -16,7 +22,12 @@ FN uint emit_birth_fraction(SIM_PARAM uint index)
         j -= STEP(groups[group].count);
         group++;
     }
-    return (STEP(groups[group].first) + j * STEP(groups[group].spacing)) >> 26u;
+    uint at = STEP(groups[group].first) + j * STEP(groups[group].spacing);
+    EXACT S(emit_time) time;
+    time.sixty_fourths = at >> 26u;
+    uint kept = STEP(groups[group].kind) == BIRTHS_BY_WAY ? at >> 8u : time.sixty_fourths << 18u;
+    time.place = FLOAT(INT(kept)) * 5.9604644775390625e-8f;
+    return time;
 }
 
 /* Returns how far along the shape birth number `index` of this step lies, 0 to 1, or -1 where its
@@ -35,7 +46,7 @@ FN float emit_order(SIM_PARAM uint index)
     uint parts = STEP(groups[group].count);
     if (STEP(emit.order) == ORDER_OPEN)
         parts = parts > 1u ? parts - 1u : 1u;
-    if (STEP(groups[group].is_burst) != 0u)
+    if (STEP(groups[group].kind) == BIRTHS_BURST)
         along = exact_div(FLOAT(j), FLOAT(parts));
     return along;
 }

@@ -10,13 +10,17 @@
 #include "shared/platform.h"
 #include "shared/value.h"
 
+#define BIRTHS_BY_RATE 0u /* the place of a birth is that at the 64th of the step before it */
+#define BIRTHS_BY_WAY  1u /* the place of a birth is that at its very time */
+#define BIRTHS_BURST   2u /* all are born at one time */
+
 /* Births of one step at equal distances in time. Birth j of a group happens at (first + j *
  * spacing) / 2^32 of the step. */
 struct kiln_birth_group {
     uint count;
     uint first;
     uint spacing;
-    uint is_burst; /* 1: all are born at one time */
+    uint kind; /* BIRTHS_* */
 };
 
 /* Parameters by which the values of a particle that its record lacks are recomputed: see
@@ -144,7 +148,8 @@ struct kiln_force_params {
 #define BORN_OF_CLOCK  0u
 #define BORN_OF_DEATH  1u
 #define BORN_OF_BOUNCE 2u
-#define BORN_OF_TRAIL  3u
+#define BORN_OF_TRAIL  3u /* of the parent's life, evenly in time */
+#define BORN_OF_WAY    4u /* of the parent's life, evenly along its way */
 
 /* The direction of an emitter's y axis at a birth from a parent. */
 #define ALIGN_WORLD    0u
@@ -155,6 +160,7 @@ struct kiln_force_params {
 #define THEN_BOUNCE 0u
 #define THEN_DIE    1u
 #define THEN_STOP   2u
+#define THEN_STICK  3u
 
 /* How a system is related to others: see family.h. */
 struct kiln_family_params {
@@ -166,8 +172,13 @@ struct kiln_family_params {
     uint traces;        /* index of its own first trace */
     uint then;          /* THEN_* */
     uint impacts;       /* 1: a parent's death at an impact counts as a death */
-    uint fewest, most;  /* death, bounce: children of a parent, drawn between the two */
-    uint unused0, unused1;
+    uint fewest, most;  /* death, bounce: children of an event, drawn between the two */
+    uint counted;     /* the impacts that its particles count: 1, or up to the last with children */
+    uint travels;     /* 1: its particles have ways (family_way.h) */
+    uint ways;        /* row of its first way among spins and ways */
+    uint parent_ways; /* that of the parent system */
+    float per_metre;  /* way: children a metre of the parent's way */
+    uint unused0;
     S(kiln_value) rate;   /* trail: children a second of the parent's life */
     S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };
@@ -232,6 +243,8 @@ struct kiln_step_params {
 /* A collider at the start and at the end of the step; it moves and turns evenly in between. min and
  * max are the whole shape of a box along the axes, and bounds of all others. */
 struct kiln_collider {
+    /* bounds at the start and at the end; the w of the first three, unless it is terrain or a mesh:
+     * the rotation of the step, axis times angle, rad, by which it carries what rides on it */
     float4 min, max;
     float4 min_end, max_end;
     /* all but boxes along the axes; w: radius; of a collider with a grid, w is the radius of the
@@ -308,7 +321,7 @@ struct kiln_sim {
     const float4 *value_keys;
     const float4 *grid_words;
     const float4 *push_words; /* NULL if no system interacts */
-    uint4 *spin_words;        /* NULL if no system spins; each slot writes its own */
+    uint4 *spin_words;        /* spins and ways; NULL if there are none; each slot writes its own */
     const float4 *volume_words;
 };
 #define SIM            sim,

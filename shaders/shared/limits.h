@@ -22,8 +22,8 @@
 /* Lights of fire, in addition to a scene's lights. */
 #define KILN_MAX_FIRE_LIGHTS 16
 
-/* The groups of births of a step: one of the rate and one of each burst. */
-#define KILN_MAX_BIRTH_GROUPS 65
+/* The groups of births of a step: one of the rate, one of the way and one of each burst. */
+#define KILN_MAX_BIRTH_GROUPS 66
 
 /* Colliders: objects and the floor. */
 #define KILN_MAX_COLLIDERS 257

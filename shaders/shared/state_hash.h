@@ -39,7 +39,8 @@ FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
     return lanes;
 }
 
-/* Returns the words that a particle's spin adds to the two sums; zero if it has none. */
+/* Returns the words that a particle's spin or way adds to the two sums; zero for a dead particle.
+ */
 FN S(state_hash_lanes) state_hash_spin(uint system, S(kiln_particle) p, S(kiln_spin) s)
 {
     S(state_hash_lanes) lanes;

@@ -63,15 +63,15 @@ FN S(kiln_particle) step_with_motion(S(kiln_particle) p, float3 position, float3
 FN S(kiln_particle) step_birth(SIM_PARAM uint index)
 {
     S(kiln_particle) p = step_dead();
+    EXACT S(emit_time) time = emit_birth_time(SIM index);
     p.position_serial.w = STEP(first_serial) + index;
     p.velocity_birth.w = (STEP(step) << KILN_BIRTH_STEP_SHIFT) |
-                         (emit_birth_fraction(SIM index) << KILN_BIRTH_FRACTION_SHIFT) |
-                         KILN_PARTICLE_ALIVE;
+                         (time.sixty_fourths << KILN_BIRTH_FRACTION_SHIFT) | KILN_PARTICLE_ALIVE;
     uint stream = particle_stream(STEP(derived), p);
-    EXACT float born_s = particle_birth_time(STEP(derived), p);
+    EXACT float born_s = particle_birth_time_at(STEP(derived), p, time.place);
     EXACT float order = emit_order(SIM index);
     EXACT S(emit_state) born =
-        emit_particle(SIM stream, p.position_serial.w, born_s, particle_birth_fraction(p), order);
+        emit_particle(SIM stream, p.position_serial.w, born_s, time.place, order);
     return step_with_motion(p, born.position, born.velocity);
 }
 

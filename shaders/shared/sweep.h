@@ -203,7 +203,7 @@ FN S(collide_touch) sweep_touch(SIM_PARAM S(collide_state) s, S(collide_hit) hit
 {
     uint kind = AROUND(colliders[hit.box].kind);
     EXACT S(collide_touch) touch =
-        collide_touched(s, collide_face_met(SIM hit.box, radius, s, hit.face));
+        collide_touched(s, hit.box, collide_face_met(SIM hit.box, radius, s, hit.face));
     touch.reach = COLLIDE_MEETS_CENTRES(kind) ? 0.0f : radius;
     return touch;
 }

@@ -56,6 +56,10 @@
 #define USES_BIRTHS 0xffffffffu
 #endif
 
+#ifndef USES_THEN /* of THEN_* */
+#define USES_THEN 0xffffffffu
+#endif
+
 #ifdef USES_INTEGRATION /* the scene's INTEGRATE_* */
 #define STEP_INTEGRATION USES_INTEGRATION
 #else

@@ -167,6 +167,7 @@ static void modes_of_collision_are_known(void **state)
         used("systems={a: {emit: {rate: 1}}, b: {emit: {parent: {system: a, on: {death: 2}}}}}",
              "USES_BIRTHS", true),
         BIT(BORN_OF_CLOCK) | BIT(BORN_OF_DEATH));
+    assert_int_equal(used("systems.a.collide={then: stick}", "USES_THEN", true), BIT(THEN_STICK));
     assert_int_equal(used("simulation.integration=rk4", "USES_INTEGRATION", false), INTEGRATE_RK4);
 }
 

@@ -92,11 +92,12 @@ bool kiln_appearance_at(const struct kiln_appearance_system *system, uint32_t sl
 }
 
 /* Returns the angle of a particle from its own rotation and spin, without collisions, rad. */
-static float spin_angle(const struct kiln_appearance_system *system,
+static float spin_angle(const struct kiln_appearance_system *system, uint32_t slot,
                         const struct value_clocks *clocks)
 {
+    const float turned_s = particle_turned_s(system->records[slot], clocks->age_s, system->dt_s);
     return instance_angle(clocks->stream, kiln_appearance_look(system, KILN_LOOK_TURN, clocks),
-                          kiln_appearance_look(system, KILN_LOOK_SPREAD, clocks), clocks->age_s);
+                          kiln_appearance_look(system, KILN_LOOK_SPREAD, clocks), turned_s);
 }
 
 float4 kiln_appearance_pose(const struct kiln_appearance_system *system, uint32_t slot,
@@ -104,7 +105,7 @@ float4 kiln_appearance_pose(const struct kiln_appearance_system *system, uint32_
 {
     if (system->spins)
         return spin_unit(spin_pose(system->spins[slot].pose));
-    return instance_pose(clocks->stream, spin_angle(system, clocks));
+    return instance_pose(clocks->stream, spin_angle(system, slot, clocks));
 }
 
 struct instance_axes kiln_appearance_axes(const struct kiln_appearance_system *system,
@@ -114,7 +115,7 @@ struct instance_axes kiln_appearance_axes(const struct kiln_appearance_system *s
     if (system->spins && orient == ORIENT_SPIN)
         return instance_posed(kiln_appearance_pose(system, slot, clocks));
     return instance_axes_of(orient, particle_velocity(system->records[slot]),
-                            spin_angle(system, clocks), clocks->stream);
+                            spin_angle(system, slot, clocks), clocks->stream);
 }
 
 float3 kiln_appearance_glow(const struct kiln_appearance_system *system,

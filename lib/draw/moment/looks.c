@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "asset/atlas/blackbody.h"
+#include "scene/family.h"
 #include "scene/look_defaults.h"
 #include "shared/exact.h"
 
@@ -194,13 +195,14 @@ bool kiln_looks_patterned(const struct kiln_scene *scene)
 }
 
 /* Returns the number that is added, modulo 2^32, to a slot of the system in the pool to get the
- * index of the slot's spin. */
+ * index of the slot's spin. Spins and ways lie in the order of the pool (particles/pool.c). */
 static uint32_t spins_before(const struct kiln_scene *scene, uint32_t index)
 {
     uint32_t slots = 0, spins = 0;
     for (uint32_t i = 0; i < index; i++) {
         slots += scene->systems[i].capacity;
         spins += kiln_scene_system_spins(scene, i) ? scene->systems[i].capacity : 0;
+        spins += kiln_family_travels(scene, i) ? scene->systems[i].capacity : 0;
     }
     return spins - slots;
 }

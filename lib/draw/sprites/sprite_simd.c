@@ -40,7 +40,8 @@ static void turn_billboards(struct sprite_lanes *p)
     vf angle = vf_lerp(p->turn.c[0], p->turn.c[1], vu_unit(p->stream, RANDOM_ROTATION));
     vf spin = vf_lerp(p->spread.c[2], p->spread.c[3], vu_unit(p->stream, RANDOM_SPIN));
     vf side = billboard_side(vu_unit(p->stream, RANDOM_SPIN + 1u));
-    const struct vf_angle rotation = vf_sincos(angle + spin * side * p->age_s);
+    const vf turned_s = vf_turned(&p->record, p->age_s, p->pass->view->clock.y);
+    const struct vf_angle rotation = vf_sincos(angle + spin * side * turned_s);
     struct billboard_edge edge = {-rotation.sine, rotation.cosine, p->half_size};
     if (some_stretch(p)) {
         struct vf3 moving = to_view(p->pass->view, p->record.velocity);

@@ -50,6 +50,7 @@ bool kiln_sim_cpu_step(kiln_slots_step *step_slots, struct kiln_threads *threads
 struct hash_work {
     const struct kiln_particle *records; /* records of the system */
     const struct kiln_spin *spins;       /* spins of the system; NULL: its particles do not spin */
+    const struct kiln_spin *ways;        /* ways of the system; NULL: its particles have none */
     uint32_t system;
     atomic_uint a, b, alive; /* sums of integers, in which the order of threads changes no bit */
 };
@@ -66,6 +67,12 @@ static void hash_slots(void *context, size_t begin, size_t end, uint32_t worker)
                 state_hash_spin(work->system, work->records[slot], work->spins[slot]);
             lanes.a += turning.a;
             lanes.b += turning.b;
+        }
+        if (work->ways) {
+            const struct state_hash_lanes travelled =
+                state_hash_spin(work->system, work->records[slot], work->ways[slot]);
+            lanes.a += travelled.a;
+            lanes.b += travelled.b;
         }
         a += lanes.a;
         b += lanes.b;
@@ -93,6 +100,7 @@ bool kiln_sim_cpu_hash(struct kiln_threads *threads, struct kiln_pool *pool,
         const struct kiln_pool_system *system = &pool->systems[i];
         work.records = records + system->base;
         work.spins = spins && system->spins ? spins + system->first_spin : NULL;
+        work.ways = spins && system->travels ? spins + system->first_way : NULL;
         work.system = i;
         kiln_threads_for(threads, kiln_pool_used(system), SLOTS_AT_A_TIME, hash_slots, &work);
     }

@@ -61,6 +61,8 @@ void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *
         trace = after.trace;
     } else if (family->traced && particle_is_alive(*record)) {
         trace = trace_flight(sim, b, i, before);
+        if (family->travels)
+            family_travel(sim, slot, false, trace);
     }
     if (family->traced)
         slots->traces[family->traces + slot] = trace;

@@ -4,6 +4,7 @@
  * step_family_slot, which for systems without relations are those of step_slot. Births,
  * particles that may have met a collider, and ends of lives that leave a trace are stepped alone
  * (slots_alone.c). */
+#include "shared/ride.h"
 #include "sim/step/slots_touching.h"
 
 #define STEP_SLOTS KILN_SIMD_NAME(kiln_slots_step)
@@ -334,20 +335,45 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *
 /* Returns whether lane i has a particle that an impact has stopped. */
 static inline uint32_t rests_at(const struct kiln_sim *sim, const struct kiln_block *b, uint32_t i)
 {
-    return sim->step->family.then == THEN_STOP &&
+    return sim->step->family.then >= THEN_STOP &&
            (b->lanes.words[7][i] & KILN_PARTICLE_STOPPED) != 0;
 }
 
-/* Puts particles that an impact has stopped back to where they are, as step_rest does. */
+/* Puts particles that an impact has stopped back to where they are, or on with the colliders that
+ * they ride, as step_rest does. */
 static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b)
 {
-    if (sim->step->family.then != THEN_STOP)
+    if (sim->step->family.then < THEN_STOP)
         return;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         if (!rests_at(sim, b, i))
             continue;
-        kiln_set3(&b->position, i, particle_position(record_at(b, i)));
-        kiln_set3(&b->velocity, i, particle_velocity(record_at(b, i)));
+        const struct kiln_particle p = record_at(b, i);
+        float3 position = particle_position(p), velocity = {0.0f, 0.0f, 0.0f};
+        if (p.velocity_birth.y != 0) {
+            const struct ride_motion motion = ride_motion_of(sim, p.velocity_birth.y - 1);
+            velocity = ride_velocity(sim, motion, position);
+            position = ride(motion, 0.0f, 1.0f, position);
+        }
+        kiln_set3(&b->start, i, velocity);
+        kiln_set3(&b->position, i, position);
+        kiln_set3(&b->velocity, i, velocity);
+    }
+}
+
+/* Gives particles that rest back the words in which their rest is, as step_at_rest does. before:
+ * the records before the step. */
+static inline void rest_on(const struct kiln_sim *sim, struct kiln_block *b,
+                           const struct kiln_particle *before)
+{
+    if (sim->step->family.then < THEN_STOP)
+        return;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        if (!rests_at(sim, b, i))
+            continue;
+        b->lanes.words[4][i] = before[i].velocity_birth.x;
+        b->lanes.words[5][i] = before[i].velocity_birth.y;
+        b->lanes.words[6][i] = before[i].velocity_birth.z;
     }
 }
 
@@ -467,9 +493,7 @@ static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, u
     memset(b->born, 0, sizeof b->born);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = first_slot + i;
-        b->born[i] =
-            family_event_of(sim, *kiln_slots_parent(slots, slot), slot % sim->step->family.slots)
-                .happens;
+        b->born[i] = family_event_of(sim, *kiln_slots_parent(slots, slot), slot).happens;
         any |= b->born[i];
     }
     return any != 0;
@@ -493,6 +517,7 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     find_lost(sim, b);
     find_alone(sim, b);
     move(b);
+    rest_on(sim, b, records);
     if (sim->step->spins)
         turn(sim, b, first_slot);
     kiln_lanes_store(&b->lanes, records);

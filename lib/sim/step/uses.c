@@ -8,7 +8,7 @@
 #include "sim/world/colliders.h"
 
 struct uses {
-    uint keys, clocks, forces, emitters, collide, births;
+    uint keys, clocks, forces, emitters, collide, births, thens;
 };
 
 static uint bit(uint part, bool used)
@@ -85,6 +85,7 @@ static void add_system(struct uses *uses, const struct kiln_scene *scene,
     uses->emitters |= 1u << step->emit.shape | bit(EMIT_ATTACHED, step->emit.attached != 0) |
                       bit(EMIT_ORDERED, step->emit.order != ORDER_RANDOM);
     uses->births |= 1u << step->family.born_of;
+    uses->thens |= 1u << step->family.then;
     if (kiln_sim_colliders_used(scene) != 0)
         uses->collide |= 1u << step->collide;
     for (uint32_t i = 0; i < system->force_count; i++)
@@ -104,8 +105,9 @@ void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene
                   "#define USES_KEYS %uu\n#define USES_CLOCKS %uu\n#define USES_FORCES "
                   "%uu\n#define USES_EMITTERS %uu\n"
                   "#define USES_COLLIDERS %uu\n#define USES_COLLIDE %uu\n"
-                  "#define USES_BIRTHS %uu\n#define USES_INTEGRATION %uu\n",
+                  "#define USES_BIRTHS %uu\n#define USES_THEN %uu\n"
+                  "#define USES_INTEGRATION %uu\n",
                   uses.keys, uses.clocks, uses.forces, uses.emitters,
-                  kiln_sim_colliders_used(scene), uses.collide, uses.births,
+                  kiln_sim_colliders_used(scene), uses.collide, uses.births, uses.thens,
                   (uint)scene->integration);
 }

@@ -27,9 +27,9 @@ static_assert(offsetof(struct kiln_step_params, randomness) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, pushed) == 548, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 880, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1920, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 9088, "std140");
-static_assert(sizeof(struct kiln_step_params) == 9168, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 1936, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 9104, "std140");
+static_assert(sizeof(struct kiln_step_params) == 9200, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -38,7 +38,7 @@ static_assert(sizeof(struct kiln_grid) == 80, "std140");
 static_assert(sizeof(struct kiln_collider) == 208, "std140");
 static_assert(sizeof(struct kiln_pose) == 160, "std140");
 
-static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
+static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 2, "the rate, the way and each burst");
 static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the floor");
 
 static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KILN_EMITTER_SPHERE &&
@@ -60,7 +60,7 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
               "the shaders' names of enum kiln_align");
 
 static_assert(THEN_BOUNCE == (uint)KILN_THEN_BOUNCE && THEN_DIE == (uint)KILN_THEN_DIE &&
-                  THEN_STOP == (uint)KILN_THEN_STOP,
+                  THEN_STOP == (uint)KILN_THEN_STOP && THEN_STICK == (uint)KILN_THEN_STICK,
               "the shaders' names of enum kiln_then");
 
 static float4 to_float4(const float v[3])
@@ -227,7 +227,9 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         struct kiln_family_params *family = &params->systems[index].family;
         *family = (struct kiln_family_params){.then = then_of(&system->collide)};
         if (parent->enabled) {
-            family->born_of = 1 + (uint)parent->event;
+            const bool by_metre = parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0;
+            family->born_of = by_metre ? BORN_OF_WAY : 1 + (uint)parent->event;
+            family->per_metre = (float)parent->per_metre;
             family->align = (uint)parent->align;
             family->slots = parent->slots;
             family->rate = parent->rate;
@@ -238,6 +240,7 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         }
         if (kiln_sim_is_traced(scene, index)) {
             family->traced = 1;
+            family->counted = kiln_family_counted_hits(scene, index);
             family->traces = params->trace_count;
             params->trace_count += system->capacity;
         }
@@ -256,16 +259,28 @@ static void fill_pushes(struct kiln_sim_params *params, const struct kiln_scene 
     }
 }
 
+/* Fills in the rows of spins and ways, in the order of the pool (particles/pool.c). */
 static void fill_spins(struct kiln_sim_params *params, const struct kiln_scene *scene)
 {
     params->spin_count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (!kiln_scene_system_spins(scene, i))
-            continue;
-        params->systems[i].spins = 1;
-        params->systems[i].rubs |= params->systems[i].collide != COLLIDE_OFF;
-        params->systems[i].first_spin = params->spin_count;
-        params->spin_count += scene->systems[i].capacity;
+        struct kiln_step_params *step = &params->systems[i];
+        if (kiln_scene_system_spins(scene, i)) {
+            step->spins = 1;
+            step->rubs |= step->collide != COLLIDE_OFF;
+            step->first_spin = params->spin_count;
+            params->spin_count += scene->systems[i].capacity;
+        }
+        if (kiln_family_travels(scene, i)) {
+            step->family.travels = 1;
+            step->family.ways = params->spin_count;
+            params->spin_count += scene->systems[i].capacity;
+        }
+    }
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_parent *parent = &scene->systems[i].emit.parent;
+        if (parent->enabled)
+            params->systems[i].family.parent_ways = params->systems[parent->system].family.ways;
     }
 }
 
