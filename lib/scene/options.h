@@ -34,6 +34,7 @@ extern const struct kiln_option_type kiln_type_picture;      /* an image's path 
 extern const struct kiln_option_type kiln_type_mesh;         /* a mesh's path */
 extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
+extern const struct kiln_option_type kiln_type_part;         /* a name, a number, or none */
 extern const struct kiln_option_type kiln_type_name;         /* a system's name */
 extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a list */
 extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] */
@@ -50,6 +51,7 @@ typedef const char *kiln_fills_picture;
 typedef const char *kiln_fills_mesh;
 typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
+typedef const char *kiln_fills_part;
 typedef const char *kiln_fills_name;
 typedef struct kiln_attach kiln_fills_attach;
 typedef struct kiln_node_position kiln_fills_place;
