@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "asset/geometry/rig.h"
 #include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/clock.h"
@@ -81,6 +82,10 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
         for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)
             if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
                 read = kiln_asset_add_hash(scene, scene->systems[i].forces[k].file, &text, error);
+    }
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (scene->nodes[i].file)
+            kiln_text_add(&text, "%s\n", kiln_rig_hash(scene->nodes[i].rig));
     }
     read = read && (!ok || (add_backdrop_hashes(scene, &text, error) &&
                             kiln_sources_add_hashes(scene, false, &text, error)));

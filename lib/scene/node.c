@@ -1,13 +1,14 @@
 /* This file computes the frames of nodes, and takes what is attached to a node to the world.
  *
- * A frame is the product of those of its chain of parents. Its rates follow from those of values
- * and paths by the rules of differentiation, so that a simulation knows the way of a node between
- * two steps to the fourth order. */
+ * A frame is the product of those of its chain of parents, and of the pose that a file of nodes
+ * has. Its rates follow from those of values and paths by the rules of differentiation, so that a
+ * simulation knows the way of a node between two steps to the fourth order. */
 #include "scene/node.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "asset/geometry/rig.h"
 #include "base/matrix.h"
 #include "scene/scene.h"
 #include "shared/exact.h"
@@ -149,12 +150,33 @@ static void set_heading(struct kiln_node_frame *frame, const struct kiln_path_pl
         frame->spin[c] = spin[c] + place->spin[c];
 }
 
-/* Returns the frame of a node in that of its parent. */
-static struct kiln_node_frame own_frame(const struct kiln_scene_node *node, const struct moments *m)
+/* Returns the frame of a place, a rotation by angles and a scale. */
+static struct kiln_node_frame frame_of(const struct moments *m, const struct kiln_value3 *position,
+                                       const struct kiln_value3 *rotation,
+                                       const struct kiln_value *scale)
 {
-    struct kiln_node_frame frame = {.scale = (double)value_at(m->keys, node->scale, m->now),
-                                    .growth = (double)rate_of(m, &node->scale)};
-    set_rotation(&frame, m, &node->rotation);
+    const float3 at = value3_at(m->keys, *position, m->now), velocity = rates_of(m, position);
+    struct kiln_node_frame frame = {
+        .at = {(double)at.x, (double)at.y, (double)at.z},
+        .velocity = {(double)velocity.x, (double)velocity.y, (double)velocity.z},
+        .scale = (double)value_at(m->keys, *scale, m->now),
+        .growth = (double)rate_of(m, scale),
+    };
+    set_rotation(&frame, m, rotation);
+    return frame;
+}
+
+/* Returns the frame in its parent that a node would have without its file. */
+static struct kiln_node_frame frame_of_keys(const struct kiln_scene *scene,
+                                            const struct kiln_scene_node *node,
+                                            const struct moments *m)
+{
+    if (node->mesh) {
+        const struct kiln_object *object = &scene->backdrop.objects[node->object];
+        return frame_of(m, &object->center, &object->rotation, &object->scale);
+    }
+    struct kiln_node_frame frame =
+        frame_of(m, &node->position.value, &node->rotation, &node->scale);
     if (node->position.path.points.count > 0) {
         const struct kiln_path_place place =
             kiln_path_at(&node->position.path, m->now.time_s, m->rates.time_s);
@@ -162,14 +184,31 @@ static struct kiln_node_frame own_frame(const struct kiln_scene_node *node, cons
         memcpy(frame.velocity, place.velocity, sizeof frame.velocity);
         if (node->heading == KILN_HEADING_PATH)
             set_heading(&frame, &place, node->ahead);
-        return frame;
     }
-    const float3 at = value3_at(m->keys, node->position.value, m->now);
-    const float3 velocity = rates_of(m, &node->position.value);
-    memcpy(frame.at, (const double[3]){(double)at.x, (double)at.y, (double)at.z}, sizeof frame.at);
-    memcpy(frame.velocity,
-           (const double[3]){(double)velocity.x, (double)velocity.y, (double)velocity.z},
-           sizeof frame.velocity);
+    return frame;
+}
+
+/* Returns the frame of a node of a file in the file's space. */
+static struct kiln_node_frame frame_of_file(const struct kiln_scene *scene, uint32_t node,
+                                            const struct moments *m)
+{
+    const struct kiln_animation *animation = kiln_node_animation(scene, node);
+    struct kiln_rig_moment moment = {.clip = KILN_RIG_AT_REST};
+    if (animation)
+        moment = (struct kiln_rig_moment){
+            .clip = animation->number,
+            .seconds = kiln_scene_animation_s(animation, m->now.time_s),
+            .rate_seconds = kiln_scene_animation_s(animation, m->rates.time_s),
+            .rate_is_behind = animation->speed.constant < 0.0f,
+            .clip_s_each_s = (double)kiln_scene_animation_speed(animation, m->rates.time_s),
+        };
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    const struct kiln_rig_pose pose = kiln_rig_pose_at(n->rig, n->rig_node, &moment);
+    struct kiln_node_frame frame = {.scale = pose.scale, .growth = pose.growth};
+    memcpy(frame.at, pose.at, sizeof frame.at);
+    memcpy(frame.velocity, pose.velocity, sizeof frame.velocity);
+    memcpy(frame.spin, pose.spin, sizeof frame.spin);
+    turn_of_frame(frame.turn, pose.ahead, pose.up);
     return frame;
 }
 
@@ -198,16 +237,28 @@ static struct kiln_node_frame inside_of(const struct kiln_node_frame *parent,
     return frame;
 }
 
+/* Returns the frame of a node in that of its parent. */
+static struct kiln_node_frame own_frame(const struct kiln_scene *scene, uint32_t node,
+                                        const struct moments *m)
+{
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    const struct kiln_node_frame outer = frame_of_keys(scene, n, m);
+    if (!n->rig)
+        return outer;
+    const struct kiln_node_frame inner = frame_of_file(scene, node, m);
+    return inside_of(&outer, &inner);
+}
+
 struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
                                           float time_s, float rate_s)
 {
     const uint32_t key = random_noise_key(scene->seed);
     const struct moments m = {scene->keys, value_clocks_at(time_s, key, key),
                               value_clocks_at(rate_s, key, key)};
-    struct kiln_node_frame frame = own_frame(&scene->nodes[node], &m);
-    for (const struct kiln_attach *parent = &scene->nodes[node].parent; parent->name;
-         parent = &scene->nodes[parent->node].parent) {
-        const struct kiln_node_frame outer = own_frame(&scene->nodes[parent->node], &m);
+    struct kiln_node_frame frame = own_frame(scene, node, &m);
+    for (const struct kiln_attach *parent = kiln_node_outer(scene, node); parent->name;
+         parent = kiln_node_outer(scene, parent->node)) {
+        const struct kiln_node_frame outer = own_frame(scene, parent->node, &m);
         frame = inside_of(&outer, &frame);
     }
     return frame;
@@ -233,19 +284,46 @@ struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
 
 /* ---- questions ------------------------------------------------------------------------------- */
 
+const struct kiln_attach *kiln_node_outer(const struct kiln_scene *scene, uint32_t node)
+{
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    return n->mesh ? &scene->backdrop.objects[n->object].attach : &n->parent;
+}
+
+const struct kiln_animation *kiln_node_animation(const struct kiln_scene *scene, uint32_t node)
+{
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    const struct kiln_animation *animation =
+        n->mesh ? &scene->backdrop.objects[n->object].animation : &n->animation;
+    return n->rig && animation->enabled ? animation : NULL;
+}
+
+static bool are_constant(const struct kiln_value3 *position, const struct kiln_value3 *rotation,
+                         const struct kiln_value *scale)
+{
+    return kiln_value3_is_constant(position) && kiln_value3_is_constant(rotation) &&
+           scale->count == 0;
+}
+
 bool kiln_node_stands(const struct kiln_scene *scene, uint32_t node)
 {
     const struct kiln_scene_node *n = &scene->nodes[node];
-    const bool stands = n->position.path.points.count == 0 &&
-                        kiln_value3_is_constant(&n->position.value) &&
-                        kiln_value3_is_constant(&n->rotation) && n->scale.count == 0;
-    return stands && (!n->parent.name || kiln_node_stands(scene, n->parent.node));
+    const struct kiln_object *object = n->mesh ? &scene->backdrop.objects[n->object] : NULL;
+    const struct kiln_attach *outer = kiln_node_outer(scene, node);
+    const bool stands =
+        n->position.path.points.count == 0 && !kiln_node_animation(scene, node) &&
+        are_constant(&n->position.value, &n->rotation, &n->scale) &&
+        (!object || are_constant(&object->center, &object->rotation, &object->scale));
+    return stands && (!outer->name || kiln_node_stands(scene, outer->node));
 }
 
 bool kiln_node_carries(const struct kiln_scene *scene, uint32_t node, uint32_t other)
 {
-    while (other != node && scene->nodes[other].parent.name)
-        other = scene->nodes[other].parent.node;
+    const struct kiln_attach *outer = kiln_node_outer(scene, other);
+    while (other != node && outer->name) {
+        other = outer->node;
+        outer = kiln_node_outer(scene, other);
+    }
     return other == node;
 }
 

@@ -1,9 +1,11 @@
 /* This file settles the nodes of a scene when all of its rows are read: names become numbers, rings
- * of parents are refused, and the curves of paths are measured once. */
+ * of parents are refused, the curves of paths are measured once, and files with nodes are read. */
 #include "scene/node_settle.h"
 
 #include <stdio.h>
 #include <string.h>
+
+#include "scene/node_rig.h"
 
 /* ---- names ----------------------------------------------------------------------------------- */
 
@@ -43,23 +45,24 @@ static bool find_parents(struct kiln_reader *reader, const struct kiln_node *roo
 static bool check_ring(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
-    const struct kiln_scene_node *node = &scene->nodes[index];
-    uint32_t count = 0;
-    while (node->parent.name && node->parent.node != index && count <= scene->node_count) {
-        node = &scene->nodes[node->parent.node];
+    const struct kiln_attach *outer = kiln_node_outer(scene, index);
+    uint32_t count = 0, at = index;
+    while (outer->name && outer->node != index && count <= scene->node_count) {
+        outer = kiln_node_outer(scene, outer->node);
         count++;
     }
-    if (!node->parent.name || node->parent.node != index)
+    if (!outer->name || outer->node != index)
         return true; /* also where it leads into a ring of others, which is found from there */
     char path[80], chain[256];
     size_t length = (size_t)snprintf(chain, sizeof chain, "%s", scene->nodes[index].name);
-    node = &scene->nodes[index];
     do {
-        node = &scene->nodes[node->parent.node];
+        at = kiln_node_outer(scene, at)->node;
         if (length < sizeof chain)
-            length += (size_t)snprintf(chain + length, sizeof chain - length, ", %s", node->name);
-    } while (node != &scene->nodes[index]);
-    snprintf(path, sizeof path, "nodes.%s.parent", scene->nodes[index].name);
+            length += (size_t)snprintf(chain + length, sizeof chain - length, ", %s",
+                                       scene->nodes[at].name);
+    } while (at != index);
+    snprintf(path, sizeof path, "nodes.%s.%s", scene->nodes[index].name,
+             scene->nodes[index].mesh ? "mesh" : "parent");
     return kiln_reader_error_at(
         reader, root, path,
         "the node is its own parent: %s%s; the first node of a chain has no "
@@ -171,7 +174,8 @@ static bool find_systems(struct kiln_reader *reader, const struct kiln_node *roo
     return true;
 }
 
-/* Puts a camera that says no more than its node into that node, and lets it look along z. */
+/* Puts a camera that says no more than its node into that node, and lets it look along z. A camera
+ * of a file looks along -z. */
 static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_camera *camera = &kiln_reader_scene(reader)->camera;
@@ -182,6 +186,10 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
     const struct kiln_node *rows = kiln_node_entry(root, "camera");
     const bool placed = rows && kiln_node_entry(rows, "position");
     const bool aimed = rows && kiln_node_entry(rows, "target");
+    const bool has_fov = rows && kiln_node_entry(rows, "fov");
+    bool ok = true;
+    const bool is_of_file =
+        kiln_node_rigs_take_camera(reader, root, camera->attach.node, has_fov, &ok);
     if (!placed)
         camera->position = (struct kiln_value3){.x = {.constant = 0}};
     if (placed && !aimed && !kiln_value3_is_constant(&camera->position))
@@ -189,17 +197,18 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
                                     "varies within a node, so the camera needs a target, too");
     if (!aimed) {
         camera->target = camera->position;
-        camera->target.z.constant += 1;
+        camera->target.z.constant += is_of_file ? -1 : 1;
     }
-    return true;
+    return ok;
 }
 
 bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
-    bool ok = find_parents(reader, root);
+    bool ok = kiln_node_rigs_find_objects(reader, root) && find_parents(reader, root) &&
+              find_backdrop(reader, root);
     for (uint32_t i = 0; ok && i < scene->node_count; i++)
         ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
-    return ok && settle_camera(reader, root) && find_backdrop(reader, root) &&
+    return ok && kiln_node_rigs_settle(reader, root) && settle_camera(reader, root) &&
            find_systems(reader, root);
 }

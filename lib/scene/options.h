@@ -35,6 +35,7 @@ extern const struct kiln_option_type kiln_type_image;        /* the same, decode
 extern const struct kiln_option_type kiln_type_mesh;         /* a mesh's path */
 extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
+extern const struct kiln_option_type kiln_type_part;         /* a name, a number, or none */
 extern const struct kiln_option_type kiln_type_name;         /* a system's name */
 extern const struct kiln_option_type kiln_type_object;       /* an object's name or number */
 extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a list */
@@ -53,6 +54,7 @@ typedef const char *kiln_fills_image;
 typedef const char *kiln_fills_mesh;
 typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
+typedef const char *kiln_fills_part;
 typedef const char *kiln_fills_name;
 typedef const char *kiln_fills_object;
 typedef struct kiln_attach kiln_fills_attach;

@@ -80,16 +80,6 @@ static bool any_paints(const struct kiln_scene *scene)
     return any;
 }
 
-unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
-{
-    const struct kiln_object *o = object;
-    const bool bounces = o->collide && any_collides(scene);
-    return bounces || kiln_object_is_source(scene, o) ||
-                   (kiln_object_takes_paint(o) && any_paints(scene))
-               ? BOTH
-               : NEITHER;
-}
-
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop)
 {
     return kiln_backdrop_floor_collides(backdrop) && any_collides(scene) ? BOTH : NEITHER;
@@ -211,11 +201,44 @@ static unsigned parts_of_node(const struct kiln_scene *scene, uint32_t node)
     return parts;
 }
 
+/* Returns the number of the node that a struct lies in. */
+static uint32_t number_of(const struct kiln_scene *scene, const void *inside)
+{
+    const size_t offset = (size_t)((const char *)inside - (const char *)scene->nodes);
+    return (uint32_t)(offset / sizeof *scene->nodes);
+}
+
 unsigned kiln_row_of_node(const void *scene, const void *inside)
 {
+    return parts_of_node(scene, number_of(scene, inside));
+}
+
+unsigned kiln_row_if_node_is_of_file(const void *scene, const void *inside)
+{
     const struct kiln_scene *in = scene;
-    const size_t offset = (size_t)((const char *)inside - (const char *)in->nodes);
-    return parts_of_node(in, (uint32_t)(offset / sizeof *in->nodes));
+    return in->nodes[number_of(in, inside)].file ? kiln_row_of_node(scene, inside) : 0;
+}
+
+unsigned kiln_row_if_node_is_joint(const void *scene, const void *inside)
+{
+    const struct kiln_scene *in = scene;
+    return in->nodes[number_of(in, inside)].mesh ? kiln_row_of_node(scene, inside) : 0;
+}
+
+/* Joints of an object move what is attached to them. */
+unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
+{
+    const struct kiln_object *o = object;
+    const struct kiln_scene *in = scene;
+    const bool bounces = o->collide && any_collides(in);
+    const bool painted = kiln_object_takes_paint(o) && any_paints(in);
+    unsigned parts = bounces || painted || kiln_object_is_source(scene, o) ? BOTH : NEITHER;
+    for (uint32_t i = 0; i < in->node_count; i++) {
+        const struct kiln_scene_node *node = &in->nodes[i];
+        if (node->mesh && o == &in->backdrop.objects[node->object])
+            parts |= parts_of_node(in, i);
+    }
+    return parts;
 }
 
 unsigned kiln_row_of_nodes(const void *scene, const void *base)

@@ -61,6 +61,9 @@ unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera);
 /* Returns the bits of what is attached to a node, or to nodes that lie in it. base is a struct
  * kiln_scene_node, or a struct within one. */
 unsigned kiln_row_of_node(const void *scene, const void *inside);
+/* Do the same for a node of a file, or for a joint, and otherwise return 0. */
+unsigned kiln_row_if_node_is_of_file(const void *scene, const void *inside);
+unsigned kiln_row_if_node_is_joint(const void *scene, const void *inside);
 /* Returns the bits of all nodes together; 0 if there are none. */
 unsigned kiln_row_of_nodes(const void *scene, const void *base);
 
@@ -88,6 +91,8 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached
 #define IF_LIGHT_IS_ATTACHED     kiln_row_if_light_is_attached
 #define IF_CAMERA_IS_ATTACHED    kiln_row_if_camera_is_attached
+#define IF_NODE_IS_OF_FILE       kiln_row_if_node_is_of_file
+#define IF_NODE_IS_JOINT         kiln_row_if_node_is_joint
 #define OF_NODE                  kiln_row_of_node
 #define OF_NODES                 kiln_row_of_nodes
 

@@ -190,6 +190,16 @@ float kiln_scene_animation_s(const struct kiln_animation *animation, float time_
     return exact_clamp(seconds - rounds * animation->length, 0.0f, animation->length);
 }
 
+float kiln_scene_animation_speed(const struct kiln_animation *animation, float time_s)
+{
+    const float speed = animation->speed.constant, length = animation->length;
+    float seconds;
+    rounds_of(animation, time_s, &seconds);
+    const bool stays =
+        speed > 0.0f ? seconds < 0.0f || seconds >= length : seconds <= 0.0f || seconds > length;
+    return stays && !animation->loop ? 0.0f : speed;
+}
+
 bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
                                float *end_s)
 {

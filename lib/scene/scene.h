@@ -88,16 +88,6 @@ enum kiln_object_kind {
     KILN_OBJECT_CONE,    /* with a flat base; its axis points to the tip */
 };
 
-/* A mesh that moves in its own space by a clip of its file (asset/geometry/skin.h). */
-struct kiln_animation {
-    bool enabled;
-    const char *clip;               /* the clip's name or number, as written */
-    struct kiln_value start, speed; /* s; factor: constant */
-    bool loop;
-    uint32_t number; /* follows: number of the clip */
-    float length;    /* follows: s, length of the clip */
-};
-
 /* How particles collide with a mesh. */
 enum kiln_collider_kind {
     KILN_COLLIDER_FIELD,      /* with its distance field: closed, moves rigidly */
@@ -351,13 +341,6 @@ void kiln_scene_rotation(float3 angles, float columns[3][3]);
 
 /* Returns whether the object is drawn as a mesh. */
 bool kiln_object_is_mesh(const struct kiln_object *object);
-
-/* Returns how far into its clip, s, a moving mesh is at a clip time; kiln_skin_pose takes it. */
-float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
-/* Returns whether a clip restarts between two times, of which the second is later. Then *end_s
- * becomes the position in it where it ends. */
-bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
-                               float *end_s);
 
 /* Return whether particles of a system paint any mesh, and whether an object takes paint. */
 bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system);

@@ -15,6 +15,7 @@
 #include "frame/loop.h"
 #include "fuzz.h"
 #include "scene/options.h"
+#include "scene/parts.h"
 #include "scene/work.h"
 
 enum {
@@ -234,6 +235,11 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "auto", "10", "-10", "[10, -10]");
     else if (type == &kiln_type_picture)
         ADD_ONE(c, "none", "\"scenes/textures/card.png\"");
+    else if (type == &kiln_type_mesh && row->parts == kiln_row_if_node_is_of_file)
+        /* with the rows that such a file needs, which are not written by themselves */
+        ADD_ONE(c, "\"tests/gltf/nodes/nodes-growing.gltf\", node: Camera",
+                "\"tests/gltf/nodes/nodes-uneven.gltf\", node: Tip, animation: {speed: -1000}",
+                "\"tests/gltf/nodes/nodes-step.gltf\", node: 3, animation: {clip: 1, loop: false}");
     else if (type == &kiln_type_mesh)
         ADD_ONE(c, "\"scenes/meshes/cabin.obj\"", "\"scenes/meshes/slab.obj\"",
                 "\"scenes/meshes/paper_plane.obj\"", "\"scenes/meshes/starling.obj\"");
@@ -274,6 +280,9 @@ static bool is_chosen(struct choice *c, const struct kiln_option *row, int depth
     if (row->is_unprinted || row->type == &kiln_type_text || row->type == &kiln_type_rational ||
         row->type == &kiln_type_clip || row->type == &kiln_type_object || depth > MOST_DEPTH)
         return !row->fallback;
+    if (row->type == &kiln_type_part ||
+        (row->parts == kiln_row_if_node_is_of_file && row->type != &kiln_type_mesh))
+        return false;
     return needed || take(c) % 4 == 3;
 }
 
