@@ -46,15 +46,16 @@ struct kiln_force_region {
     struct kiln_value3 ball_center;
     struct kiln_value radius;  /* m: of the ball */
     struct kiln_value falloff; /* m: over which the force fades, inside of the border */
+    struct kiln_attach attach; /* the region lies in this node; no name: in that of the force */
 };
 
 /* The options of all kinds of force; a kind uses some. In a union, the first member is the name
  * that kernels know, and the others are the same memory by the names of kinds. Each step copies all
- * options into struct kiln_force_params (force_at_time in sim/world/params.c), from which kernels
+ * options into struct kiln_force_params (sim/world/force_params.c), from which kernels
  * read them. */
 struct kiln_force {
     enum kiln_force_kind kind;
-    struct kiln_attach attach; /* attract, vortex: place, axis and radius lie in this node */
+    struct kiln_attach attach; /* the force, and its region, lie in this node */
     union {
         struct kiln_value3 vector;
         struct kiln_value3 acceleration; /* gravity: m/s^2 */

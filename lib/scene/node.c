@@ -274,7 +274,7 @@ struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
     const struct kiln_scene_node own = {.position = {.value = object->center},
                                         .rotation = object->rotation,
                                         .scale = object->scale};
-    const struct kiln_node_frame frame = own_frame(&own, &m);
+    const struct kiln_node_frame frame = frame_of_keys(scene, &own, &m);
     if (!object->attach.name)
         return frame;
     const struct kiln_node_frame outer =

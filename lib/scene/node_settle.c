@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/node_rig.h"
+#include "scene/options.h"
 
 /* ---- names ----------------------------------------------------------------------------------- */
 
@@ -143,15 +144,17 @@ static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root
     bool ok = true;
     for (uint32_t i = 0; ok && i < system->force_count; i++) {
         struct kiln_force *force = &system->forces[i];
+        const char *kind = kiln_force_name(force);
         char path[96];
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.attach", system->name, i,
-                 force->kind == KILN_FORCE_VORTEX ? "vortex" : "attract");
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.attach", system->name, i, kind);
         ok = find_node(reader, root, path, &force->attach);
-        if (ok && force->attach.name && force->region.enabled)
-            return kiln_reader_error_at(reader, root, path, "must be none for a force in a region");
-        if (ok && force->attach.name && force->scale.count > 0)
-            return kiln_reader_error_at(reader, root, path,
-                                        "must be none for a force whose radius varies");
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region.attach", system->name, i, kind);
+        ok = ok && find_node(reader, root, path, &force->region.attach);
+    }
+    for (uint32_t i = 0; ok && i < system->demitter_count; i++) {
+        char path[96];
+        snprintf(path, sizeof path, "systems.%s.demitters.%u.attach", system->name, i);
+        ok = find_node(reader, root, path, &system->demitters[i].attach);
     }
     return ok;
 }

@@ -43,6 +43,7 @@ extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] 
 extern const struct kiln_option_type kiln_type_attach;       /* a node's name, or none */
 extern const struct kiln_option_type kiln_type_place;        /* a vector, or {path: {...}} */
 extern const struct kiln_option_type kiln_type_points;       /* [[0, 0, 0], [1, 0, 0]] */
+extern const struct kiln_option_type kiln_type_demitter;     /* {min, max, attach} */
 extern const struct kiln_option_type kiln_type_duration;     /* 5 s, or none */
 
 /* The C types of their fields (option/option.h). */
@@ -60,6 +61,7 @@ typedef const char *kiln_fills_object;
 typedef struct kiln_attach kiln_fills_attach;
 typedef struct kiln_node_position kiln_fills_place;
 typedef struct kiln_path_points kiln_fills_points;
+typedef struct kiln_demitter kiln_fills_demitter;
 typedef struct kiln_burst kiln_fills_bursts[];
 typedef uint32_t kiln_fills_counts[2];
 typedef struct kiln_scene kiln_fills_duration; /* its frames */
@@ -70,6 +72,9 @@ static inline struct kiln_origin kiln_scene_origin(const char *name)
     return (struct kiln_origin){
         .name = name, .has_lines = true, .kind = "a scene", .version = "kiln: 1"};
 }
+
+/* Returns the name of a force's kind in a file. */
+const char *kiln_force_name(const struct kiln_force *force);
 
 /* Returns the scene that is being read, or printed, by these tables. */
 static inline struct kiln_scene *kiln_reader_scene(const struct kiln_reader *reader)

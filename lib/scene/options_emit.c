@@ -408,7 +408,7 @@ TABLE(paint_options) = {
 #undef FILLS
 #define FILLS struct kiln_system
 
-ITEM(demitter, bounds, .name = "demitter", LIMITS(KILN_METRES, -FAR, FAR));
+ITEM(demitter, demitter, .name = "demitter", LIMITS(KILN_METRES, -FAR, FAR));
 ITEM_OF_KINDS(force, kiln_force_kinds, kind, .name = "force");
 ITEM_OF_KINDS(interaction, kiln_interaction_kinds, kind, .name = "interaction");
 
@@ -434,7 +434,7 @@ PUBLIC_TABLE(kiln_options_system) = {
         MOTION, "paint", paint, paint_options, paint.enabled, "none",
         "Particles leave the colour of their look on meshes that take paint (Drone 2007, 7.6.1)."),
     LIST(MOTION, "demitters", demitters, demitter, demitter_count, "[]",
-         "Boxes in which particles die."),
+         "Boxes in which particles die. With `attach: NODE`, a box lies in the frame of a node."),
     BOUNDS(MOTION, "bounds", bounds, "none", "A box outside of which particles die."),
     GROUP_AT(MOTION, "look", look, kiln_options_look, "What the particles look like."),
     END,

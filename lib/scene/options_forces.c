@@ -22,6 +22,8 @@ TABLE(region_sphere) = {
 };
 
 TABLE(region_options) = {
+    ATTACH(IF_REGION_IS_ATTACHED,
+           "Node that the region lies in. Without one, it lies in the node of its force."),
     SWITCH(MOTION, "box", region_box, box, "none", "The region is a box."),
     SWITCH(MOTION, "sphere", region_sphere, sphere, "none", "The region is a sphere."),
     VALUE(MOTION, "falloff", falloff, KILN_METRES, 0, FAR, TIME(98), "0 m",
@@ -38,10 +40,19 @@ TABLE(region_options) = {
               "Where the force acts: in a `box` or a `sphere`. Outside of it the force does "      \
               "nothing.")
 
+/* An option of these forces, too. */
+#define ATTACHED                                                                                   \
+    ATTACH(                                                                                        \
+        IF_FORCE_IS_ATTACHED,                                                                      \
+        "Node that the force lies in: its places, directions and sizes are in the frame of the "   \
+        "node, and move, turn and scale with it. Speeds and accelerations are not scaled, and "    \
+        "air does not take up the velocity of the node.")
+
 TABLE(gravity) = {
     VECTOR(MOTION, "acceleration", acceleration, KILN_ACCELERATION, -10000, 10000, LIFE(46),
            "[0, -9.81, 0]",
            "Acceleration of the particles. It points upwards for gas that is lighter than air."),
+    ATTACHED,
     REGION,
     END,
 };
@@ -52,6 +63,7 @@ TABLE(drag) = {
     VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, LIFE(48), "0",
           "Quadratic drag: the deceleration is `quadratic` times the square of the speed. Air "
           "slows all but the smallest and slowest particles this way."),
+    ATTACHED,
     REGION,
     END,
 };
@@ -76,6 +88,7 @@ TABLE(wind) = {
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
+    ATTACHED,
     REGION,
     END,
 };
@@ -92,6 +105,7 @@ TABLE(curl) = {
           "the velocities is their acceleration."),
     INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Number of layers of ever smaller eddies."),
     MODE,
+    ATTACHED,
     REGION,
     END,
 };
@@ -106,6 +120,7 @@ TABLE(grid) = {
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
+    ATTACHED,
     REGION,
     END,
 };
@@ -118,13 +133,7 @@ static const char *const falloffs[] = {
     NULL,
 };
 
-#define ATTACHED                                                                                   \
-    ATTACH(IF_FORCE_IS_ATTACHED,                                                                   \
-           "Node that the force lies in: place, axis and radius are in its frame. Speeds and "     \
-           "accelerations stay those of the world.")
-
 TABLE(attract) = {
-    ATTACHED,
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(57), "[0, 0, 0]",
            "Point that particles are drawn to."),
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, LIFE(58), "1 m/s^2",
@@ -138,6 +147,7 @@ TABLE(attract) = {
           "+ radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. The acceleration is 0 at the "
           "position itself. At a distance of three radii it is 15, 10 or 5 % less than without "
           "softening, for n of 3, 2 or 1."),
+    ATTACHED,
     REGION,
     END,
 };
@@ -149,7 +159,6 @@ static const char *const profiles[] = {
 };
 
 TABLE(vortex) = {
-    ATTACHED,
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME(60), "[0, 0, 0]",
            "A point of the axis."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(61), "[0, 1, 0]",
@@ -172,6 +181,7 @@ TABLE(vortex) = {
           "How fast particles take up the velocity of the air: `pull` times the difference of "
           "the velocities is their acceleration."),
     MODE,
+    ATTACHED,
     REGION,
     END,
 };
@@ -236,3 +246,11 @@ PUBLIC_KINDS(kiln_force_kinds) = {
      .help = "Air whose velocities come from a file (UberFlow 2004, 4.2)."},
     {.name = NULL},
 };
+
+const char *kiln_force_name(const struct kiln_force *force)
+{
+    const struct kiln_option_kind *kind = kiln_force_kinds;
+    while (kind->value != (int)force->kind)
+        kind++;
+    return kind->name;
+}

@@ -155,6 +155,12 @@ unsigned kiln_row_if_force_is_attached(const void *scene, const void *force)
     return ((const struct kiln_force *)force)->attach.name ? BOTH : 0;
 }
 
+unsigned kiln_row_if_region_is_attached(const void *scene, const void *region)
+{
+    (void)scene;
+    return ((const struct kiln_force_region *)region)->attach.name ? BOTH : 0;
+}
+
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object)
 {
     (void)scene;
@@ -185,7 +191,10 @@ static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
 {
     bool moves = is_carried(scene, node, &system->emit.attach);
     for (uint32_t i = 0; i < system->force_count; i++)
-        moves = moves || is_carried(scene, node, &system->forces[i].attach);
+        moves = moves || is_carried(scene, node, &system->forces[i].attach) ||
+                is_carried(scene, node, &system->forces[i].region.attach);
+    for (uint32_t i = 0; i < system->demitter_count; i++)
+        moves = moves || is_carried(scene, node, &system->demitters[i].attach);
     return moves;
 }
 

@@ -55,6 +55,12 @@ enum kiln_integration {
 /* The largest number of a system: the key of the next one would be that of system 0 (random.h). */
 #define KILN_MAX_SYSTEM_SEED (UINT32_MAX - 1)
 
+/* A box in which particles die (Heinz 2019, 2.1.2). */
+struct kiln_demitter {
+    struct kiln_bounds box;
+    struct kiln_attach attach; /* the box lies in this node */
+};
+
 struct kiln_system {
     const char *name;
     bool enabled;
@@ -66,7 +72,7 @@ struct kiln_system {
     struct kiln_interaction interactions[KILN_MAX_INTERACTIONS];
     uint32_t interaction_count;
     struct kiln_painting paint;
-    struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* boxes: a particle inside dies (2.1.2) */
+    struct kiln_demitter demitters[KILN_MAX_DEMITTERS];
     uint32_t demitter_count;
     struct kiln_bounds bounds; /* box: a particle outside dies (2.1.2) */
     struct kiln_look look;

@@ -301,10 +301,8 @@ static bool check_regions(struct kiln_reader *reader, const struct kiln_node *ro
     char path[128];
     for (uint32_t i = 0; i < system->force_count; i++) {
         const struct kiln_force_region *region = &system->forces[i].region;
-        const struct kiln_option_kind *kind = kiln_force_kinds;
-        while (kind->value != (int)system->forces[i].kind)
-            kind++;
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region", system->name, i, kind->name);
+        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region", system->name, i,
+                 kiln_force_name(&system->forces[i]));
         if (region->enabled && region->box == region->sphere)
             return kiln_reader_error_at(reader, root, path, "must have one of `box` and `sphere`");
     }

@@ -87,6 +87,12 @@ struct kiln_emit_params {
     S(kiln_emit_frame) frame;
 };
 
+/* The frame of a node at one time (still_frame.h). */
+struct kiln_still_frame {
+    float4 at;   /* m: its place; w: metres in one unit of the frame, 0: there is no frame */
+    float4 turn; /* from the frame to the world: a unit quaternion */
+};
+
 #define FORCE_GRAVITY 0u
 #define FORCE_DRAG    1u
 #define FORCE_WIND    2u
@@ -127,8 +133,10 @@ struct kiln_force_params {
     float inward, lift;      /* m/s */
     float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
     uint region; /* REGION_* */
-    float4 region_center; /* m; w: over how many metres inside of the border the force fades */
-    float4 region_size;   /* m: half of the edges of a box; x: radius of a sphere */
+    float4 region_center;      /* m; w: over how many metres inside of the border the force fades */
+    float4 region_size;        /* m: half of the edges of a box; x: radius of a sphere */
+    S(kiln_still_frame) frame; /* which the force lies in */
+    S(kiln_still_frame) region_frame; /* which its region lies in */
 };
 
 #define INTEGRATE_SEMI_IMPLICIT  0u
@@ -219,6 +227,7 @@ struct kiln_step_params {
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];
     float4 demitter_max[KILN_MAX_DEMITTERS];
+    S(kiln_still_frame) demitter_frames[KILN_MAX_DEMITTERS]; /* which they lie in */
     S(kiln_birth_group) groups[KILN_MAX_BIRTH_GROUPS];
     S(kiln_force_params) forces[KILN_MAX_FORCES];
     S(kiln_family_params) family;

@@ -6,6 +6,7 @@
 #include "shared/emit.h"
 #include "shared/family.h"
 #include "shared/push.h"
+#include "shared/still_frame.h"
 #include "shared/sweep.h"
 
 /* Returns whether particles of the system meet colliders. */
@@ -34,8 +35,12 @@ FN bool step_is_between(float3 p, float4 low, float4 high)
 FN bool step_is_removed(SIM_PARAM float3 p)
 {
     bool removed = STEP(bounded) != 0u && !step_is_between(p, STEP(bounds_min), STEP(bounds_max));
-    for (uint i = 0u; i < STEP(demitter_count); i++)
-        removed = removed || step_is_between(p, STEP(demitter_min[i]), STEP(demitter_max[i]));
+    for (uint i = 0u; i < STEP(demitter_count); i++) {
+        EXACT float3 at = p;
+        if (USES(USES_DEMITTERS, DEMITTER_IN_NODE) && still_frame_is(STEP(demitter_frames[i])))
+            at = still_frame_inside(STEP(demitter_frames[i]), p);
+        removed = removed || step_is_between(at, STEP(demitter_min[i]), STEP(demitter_max[i]));
+    }
     return removed;
 }
 

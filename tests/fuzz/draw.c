@@ -195,13 +195,13 @@ static void add_range(struct choice *c, const struct kiln_option *row)
     kiln_text_add(&c->text, "]");
 }
 
-static void add_bounds(struct choice *c, const struct kiln_option *row)
+static void add_bounds(struct choice *c, const struct kiln_option *row, bool attached)
 {
     const double half = take(c) % 2 ? row->max : 0.5;
     char text[48];
     kiln_unit_print_double(text, KILN_PLAIN, half);
-    kiln_text_add(&c->text, "{min: [-%s, -%s, -%s], max: [%s, %s, %s]}", text, text, text, text,
-                  text, text);
+    kiln_text_add(&c->text, "{min: [-%s, -%s, -%s], max: [%s, %s, %s]%s}", text, text, text, text,
+                  text, text, attached ? ", attach: a" : "");
 }
 
 /* Adds one of several texts. */
@@ -387,8 +387,8 @@ static void add_value(struct choice *c, const struct kiln_option *row, int depth
         add_range(c, row);
     else if (type == &kiln_type_place)
         add_place(c, row, depth);
-    else if (type == &kiln_type_bounds)
-        add_bounds(c, row);
+    else if (type == &kiln_type_bounds || type == &kiln_type_demitter)
+        add_bounds(c, row, type == &kiln_type_demitter && take(c) % 2);
     else if (!add_name(c, row))
         add_nested(c, row, depth);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/agree.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/parts.h"
@@ -47,6 +48,56 @@ static const char SCENE[] =
     "    emit: {rate: 500, inherit: 1, from: {box: {}}}\n"
     "  sparks:\n"
     "    emit: {parent: {system: a, on: {trail: {rate: 4}}}, life: 0.3 s}\n";
+
+/* All forces, their regions and demitters in nodes that move, turn and grow. FORCES_ALL is needed.
+ */
+static const char FORCES[] =
+    "kiln: 1\n"
+    "seed: 3\n"
+    "output: {frames: 60}\n"
+    "nodes:\n"
+    "  hub: {position: [0, 1, 0], rotation: {keys: {0 s: [0, 0, 0], 1 s: [90 deg, 400 deg, 0]}},\n"
+    "        scale: {keys: {0 s: 0.5, 1 s: 2}}}\n"
+    "  arm: {parent: hub, position: {keys: {0 s: [0, 0, 0], 1 s: [1, 1, 0]}}, scale: 0.7}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 3000, life: [0.3 s, 1.5 s], speed: [0.5, 2],\n"
+    "           from: {box: {origin: [0, 1, 0], size: [3, 3, 3], angle: 180 deg}}}\n"
+    "    forces:\n"
+    "      - gravity: {attach: hub, acceleration: {life: [[0, -9, 0], [3, 0, 1]]}}\n"
+    "      - drag: {strength: 2, quadratic: 0.4, attach: arm, region: {box: {size: [1, 9, 1]}}}\n"
+    "      - wind: {velocity: [4, 0, 0], pull: 3, region: {attach: arm, sphere: {}, falloff: 0.5 "
+    "m}}\n"
+    "      - wind: {velocity: [0, 0, 2], mode: add, attach: arm, region: {attach: hub, box: {}}}\n"
+    "      - curl: {strength: 2, scale: {random: [0.2, 0.6]}, octaves: 3, drift: [0, 1, 0],\n"
+    "               attach: hub}\n"
+    "      - vortex: {speed: 3, inward: 1, radius: {height: {0 m: 0.2, 3 m: 1}}, attach: arm,\n"
+    "                 position: [0.2, 0, 0], axis: [1, 1, 0],\n"
+    "                 region: {box: {size: [3, 2, 3]}, falloff: 1 m}}\n"
+    "      - attract: {position: [0.5, 0, 0], strength: 4, radius: {speed: {0: 0.1, 4: 0.5}},\n"
+    "                  attach: hub}\n"
+    "      - limit: 6\n"
+    "    demitters:\n"
+    "      - {attach: arm, min: [-0.1, -9, -0.1], max: [0.2, 0, 0.2]}\n"
+    "      - {min: [1, 1, 1], max: [3, 3, 1.5]}\n";
+
+/* Forces that every kernel has. */
+static const char PLAIN[] =
+    "kiln: 1\n"
+    "output: {frames: 60}\n"
+    "nodes: {hub: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [0, 90 deg, 0]}}, scale: 2}}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 2000, life: 1 s, from: {box: {origin: [0, 1, 0], size: [2, 2, 2]}}}\n"
+    "    forces: [wind: {attach: hub, pull: 3}, curl: {attach: hub},\n"
+    "             gravity: {region: {attach: hub, box: {}}}]\n";
+
+static void attached_forces_agree(void **state)
+{
+    simulation_agree(*state, FORCES, NULL, 70);
+    simulation_agree(*state, FORCES, "simulation.integration=rk4", 25);
+    simulation_agree(*state, PLAIN, NULL, 30);
+}
 
 static const struct {
     enum kiln_simulate_technique technique;
@@ -122,6 +173,7 @@ int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(attached_emitters_agree),
+        test_on_device(attached_forces_agree),
         test_on_device(births_lie_on_a_circle),
     };
     struct test_list list = {.count = 0};

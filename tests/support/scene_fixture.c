@@ -429,8 +429,8 @@ static void fixture_zoo_disc(struct scene_fixture *f)
     curl->scale = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.3f, 1.0f, 1.5f);
     curl->drift = fixture_constant3(0.2f, -0.4f, 1.0f);
     curl->octaves = 4;
-    s->demitters[0] = (struct kiln_bounds){true, {0.2f, 0.5f, -2.0f}, {0.6f, 3.0f, 0.0f}};
-    s->demitters[1] = (struct kiln_bounds){true, {-0.6f, 0.8f, -2.0f}, {-0.2f, 3.0f, 0.0f}};
+    s->demitters[0].box = (struct kiln_bounds){true, {0.2f, 0.5f, -2.0f}, {0.6f, 3.0f, 0.0f}};
+    s->demitters[1].box = (struct kiln_bounds){true, {-0.6f, 0.8f, -2.0f}, {-0.2f, 3.0f, 0.0f}};
     s->demitter_count = 2;
 }
 

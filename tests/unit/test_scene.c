@@ -159,7 +159,7 @@ static void every_key_of_a_system_arrives(void **state)
     assert_int_equal(VALUE_CLOCK(point->collide.restitution.how), KILN_CLOCK_LIFE);
     assert_int_equal(point->collide.friction.count, 2);
     assert_int_equal(point->demitter_count, 2);
-    assert_true(point->demitters[1].enabled && point->demitters[1].max[0] == 3);
+    assert_true(point->demitters[1].box.enabled && point->demitters[1].box.max[0] == 3);
     assert_true(point->bounds.enabled && point->bounds.max[0] == 5);
     kiln_scene_destroy(&scene);
 }
@@ -208,6 +208,12 @@ static void take_attach(struct kiln_attach *left, const struct kiln_attach *righ
     left->name = right->name;
 }
 
+static void take_force(struct kiln_force *left, const struct kiln_force *right)
+{
+    take_attach(&left->attach, &right->attach);
+    take_attach(&left->region.attach, &right->region.attach);
+}
+
 /* Compares the texts and points of nodes, and gives the left scene those of the right one. */
 static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
 {
@@ -230,7 +236,10 @@ static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
     for (uint32_t i = 0; i < left->system_count; i++) {
         take_attach(&left->systems[i].emit.attach, &right->systems[i].emit.attach);
         for (uint32_t k = 0; k < left->systems[i].force_count; k++)
-            take_attach(&left->systems[i].forces[k].attach, &right->systems[i].forces[k].attach);
+            take_force(&left->systems[i].forces[k], &right->systems[i].forces[k]);
+        for (uint32_t k = 0; k < left->systems[i].demitter_count; k++)
+            take_attach(&left->systems[i].demitters[k].attach,
+                        &right->systems[i].demitters[k].attach);
     }
     for (uint32_t i = 0; i < left->backdrop.object_count; i++)
         take_attach(&left->backdrop.objects[i].attach, &right->backdrop.objects[i].attach);

@@ -354,7 +354,7 @@ static const struct bad kinds[] = {
     {"kiln: 1\n"
      "systems: {a: {forces: [{wind: {octaves: 2}}]}}\n",
      ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode, "
-     "region)"},
+     "attach, region)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
      ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone, line, mesh, "

@@ -303,6 +303,44 @@ static void whirls(void **state)
     }
 }
 
+/* Lets forces, regions and demitters lie in a node that moves, turns and grows. */
+static void attach_all(struct scene_fixture *f)
+{
+    const struct kiln_attach attach = {.name = "n", .node = 0};
+    struct kiln_scene_node *node = &f->scene.nodes[f->scene.node_count++];
+    *node = (struct kiln_scene_node){.name = "n"};
+    node->position.value.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -0.5f, 2.0f, 0.5f);
+    node->rotation.y = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.3f, 2.0f, 3.0f);
+    node->scale = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.6f, 2.0f, 1.8f);
+    for (uint32_t i = 0; i < f->scene.system_count; i++) {
+        struct kiln_system *system = &f->scene.systems[i];
+        for (uint32_t k = 0; k < system->force_count; k++) {
+            struct kiln_force *force = &system->forces[k];
+            force->attach = (i + k) % 3 ? attach : (struct kiln_attach){.name = NULL};
+            force->region.enabled = force->region.sphere = k % 2;
+            force->region.radius = fixture_constant(1.0f);
+            force->region.falloff = fixture_constant(0.5f);
+            force->region.attach = i % 2 ? attach : (struct kiln_attach){.name = NULL};
+        }
+        for (uint32_t k = 0; k < system->demitter_count; k++)
+            system->demitters[k].attach = attach;
+    }
+}
+
+/* Each integrator, with forces in a node. */
+static void attached(void **state)
+{
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        fixture_zoo(&fixture, (enum kiln_integration)order, 0);
+        fixture_add_whirls(&fixture);
+        fixture_add_field(&fixture.scene.systems[0]);
+        attach_all(&fixture);
+        fixture_finish(&fixture, STEPS);
+        run_levels();
+    }
+}
+
 /* Births, deaths and bounces of parents, with each integrator. */
 static void families(void **state)
 {
@@ -354,6 +392,7 @@ int main(void)
         cmocka_unit_test(pushed_among_colliders),
         cmocka_unit_test(clamped_among_turning_colliders),
         cmocka_unit_test(whirls),
+        cmocka_unit_test(attached),
         cmocka_unit_test(families),
         cmocka_unit_test(pushed_families),
         cmocka_unit_test(each_force_alone),

@@ -108,8 +108,19 @@ static void forces_are_known(void **state)
         {"systems.a.forces=[curl: {}, attract: {}]", BIT(FORCE_CURL) | BIT(FORCE_ATTRACT)},
         {"systems.a.forces=[vortex: 1]", BIT(FORCE_VORTEX)},
         {"systems.a.forces=[drag: {region: {sphere: {}}}]", BIT(FORCE_DRAG) | BIT(FORCE_IN_REGION)},
+        {"nodes={n: {}};systems.a.forces=[drag: {attach: n}]",
+         BIT(FORCE_DRAG) | BIT(FORCE_IN_NODE)},
+        {"nodes={n: {}};systems.a.forces=[drag: {region: {attach: n, sphere: {}}}]",
+         BIT(FORCE_DRAG) | BIT(FORCE_IN_NODE) | BIT(FORCE_IN_REGION)},
     };
     EXPECT("USES_FORCES", uses);
+    static const struct use ends[] = {
+        {NULL, 0},
+        {"systems.a.demitters=[{min: [0, 0, 0], max: [1, 1, 1]}]", 0},
+        {"nodes={n: {}};systems.a.demitters=[{min: [0, 0, 0], max: [1, 1, 1], attach: n}]",
+         BIT(DEMITTER_IN_NODE)},
+    };
+    EXPECT("USES_DEMITTERS", ends);
 }
 
 static void shapes_of_emitters_are_known(void **state)

@@ -36,8 +36,9 @@ struct kiln_block {
     struct kiln_floats3 velocity, position; /* at the end of the step */
     struct kiln_floats3 vector, second;     /* options of the present force */
     kiln_floats strength, pulling, braking, scale;
-    struct kiln_floats3 kept_acceleration; /* sum of the forces before one that acts in a region */
+    struct kiln_floats3 kept_acceleration; /* sum of the forces before one that stands apart */
     kiln_floats kept_pull, kept_quadratic;
+    struct kiln_floats3 kept_at; /* places in the world, while a force in a node is evaluated */
     struct kiln_floats3 place, curl;
     struct stages_lanes stages;
     struct kiln_floats3 rate; /* spin of particles that collide as balls */

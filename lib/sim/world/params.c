@@ -15,21 +15,23 @@
 #include "shared/trace.h"
 #include "sim/world/colliders.h"
 #include "sim/world/emit_frame.h"
+#include "sim/world/force_params.h"
 #include "sim/world/posed_births.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
 static_assert(sizeof(struct kiln_emit_params) == 368, "std140");
-static_assert(sizeof(struct kiln_force_params) == 224, "std140");
+static_assert(sizeof(struct kiln_still_frame) == 32, "std140");
+static_assert(sizeof(struct kiln_force_params) == 288, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 416, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, pushed) == 548, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 880, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1936, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 9104, "std140");
-static_assert(sizeof(struct kiln_step_params) == 9200, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 1136, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 2192, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 11408, "std140");
+static_assert(sizeof(struct kiln_step_params) == 11504, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -197,8 +199,8 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
     for (uint32_t i = 0; i < system->force_count; i++)
         params->forces_do |= what_force_does(&system->forces[i]);
     for (uint32_t i = 0; i < system->demitter_count; i++) {
-        params->demitter_min[i] = to_float4(system->demitters[i].min);
-        params->demitter_max[i] = to_float4(system->demitters[i].max);
+        params->demitter_min[i] = to_float4(system->demitters[i].box.min);
+        params->demitter_max[i] = to_float4(system->demitters[i].box.max);
     }
 }
 
@@ -320,96 +322,6 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     fill_spins(params, scene);
 }
 
-/* A moment of a system, for which the host evaluates values. */
-struct moment {
-    const struct kiln_scene *scene;
-    uint32_t system;
-    float time_s;
-};
-
-/* Evaluates a value that is the same for all particles; another one stays as it is. */
-static struct kiln_value at_time(const struct moment *m, struct kiln_value value)
-{
-    if (kiln_value_uses(m->scene->keys, &value) & KILN_VALUE_OF_PARTICLES)
-        return value;
-    return (struct kiln_value){.constant =
-                                   kiln_scene_system_value(m->scene, m->system, &value, m->time_s)};
-}
-
-static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 value)
-{
-    return (struct kiln_value3){at_time(m, value.x), at_time(m, value.y), at_time(m, value.z)};
-}
-
-/* Fills in where a force acts. */
-static void fill_region(struct kiln_force_params *params, const struct moment *m,
-                        const struct kiln_force_region *region)
-{
-    const struct kiln_scene *scene = m->scene;
-    const struct kiln_value3 *center = region->sphere ? &region->ball_center : &region->box_center;
-    const float3 place = kiln_scene_system_value3(scene, m->system, center, m->time_s);
-    const float3 edges = kiln_scene_system_value3(scene, m->system, &region->box_size, m->time_s);
-    const float radius = kiln_scene_system_value(scene, m->system, &region->radius, m->time_s);
-    const float falloff = kiln_scene_system_value(scene, m->system, &region->falloff, m->time_s);
-    params->region = region->sphere ? REGION_SPHERE : REGION_BOX;
-    params->region_center = FLOAT4(place.x, place.y, place.z, falloff);
-    params->region_size = FLOAT4(0.5f * edges.x, 0.5f * edges.y, 0.5f * edges.z, 0.0f);
-    if (region->sphere)
-        params->region_size = FLOAT4(radius, 0.0f, 0.0f, 0.0f);
-}
-
-static float3 constants_of(const struct kiln_value3 *value)
-{
-    return FLOAT3(value->x.constant, value->y.constant, value->z.constant);
-}
-
-static struct kiln_value3 of_constants(float3 v)
-{
-    return (struct kiln_value3){
-        .x = {.constant = v.x}, .y = {.constant = v.y}, .z = {.constant = v.z}};
-}
-
-/* Takes a force from its node to the world. Its place, axis and radius do not differ between
- * particles, so they are constants in a step. */
-static void attach_force(const struct moment *m, const struct kiln_attach *attach,
-                         struct kiln_force_params *params)
-{
-    const float3 at = constants_of(&params->vector), axis = constants_of(&params->second);
-    params->vector = of_constants(kiln_attached_point(m->scene, attach, at, m->time_s));
-    params->second = of_constants(kiln_attached_vector(m->scene, attach, axis, m->time_s));
-    params->scale.constant =
-        kiln_attached_length(m->scene, attach, params->scale.constant, m->time_s);
-}
-
-static struct kiln_force_params force_at_time(const struct moment *m,
-                                              const struct kiln_sim_grids *grids,
-                                              const struct kiln_force *force)
-{
-    struct kiln_force_params params = {
-        .kind = (uint)force->kind,
-        .octaves = force->octaves,
-        .profile = (uint)force->profile,
-        .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
-        .vector = at_time3(m, force->vector),
-        .second = at_time3(m, force->second),
-        .strength = at_time(m, force->strength),
-        .pull = at_time(m, force->pull),
-        .quadratic = at_time(m, force->quadratic),
-        .scale = at_time(m, force->scale),
-        .inward = kiln_scene_system_value(m->scene, m->system, &force->inward, m->time_s),
-        .lift = kiln_scene_system_value(m->scene, m->system, &force->lift, m->time_s),
-    };
-    if (force->mode == KILN_WIND_ADD) {
-        params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
-        params.pull = (struct kiln_value){.constant = 0.0f};
-    }
-    if (force->region.enabled)
-        fill_region(&params, m, &force->region);
-    if (force->attach.name)
-        attach_force(m, &force->attach, &params);
-    return params;
-}
-
 /* Sets the next serial of a system of children. It follows from the parents' serials, so no births
  * are counted. */
 static bool count_children(struct kiln_step_params *params, const struct kiln_scene *scene,
@@ -490,6 +402,26 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
     return true;
 }
 
+/* Brings demitters that lie in nodes to where these are at the end of a step, when particles are
+ * looked for in them. */
+static void place_demitters(struct kiln_step_params *params, const struct kiln_scene *scene,
+                            const struct kiln_system *system, float end_s)
+{
+    for (uint32_t i = 0; i < system->demitter_count; i++) {
+        const struct kiln_demitter *demitter = &system->demitters[i];
+        if (!demitter->attach.name)
+            continue;
+        const struct kiln_still_frame frame = kiln_sim_frame(scene, &demitter->attach, end_s);
+        const float *low = demitter->box.min, *high = demitter->box.max;
+        const float scale = frame.at.w;
+        params->demitter_frames[i] = frame;
+        params->demitter_min[i] =
+            to_float4((float[]){low[0] * scale, low[1] * scale, low[2] * scale});
+        params->demitter_max[i] =
+            to_float4((float[]){high[0] * scale, high[1] * scale, high[2] * scale});
+    }
+}
+
 bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
                           struct kiln_pool *pool, uint32_t step, struct kiln_error *error)
 {
@@ -502,14 +434,15 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
     for (uint32_t i = 0; i < params->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         struct kiln_step_params *p = &params->systems[i];
-        const struct moment start = {scene, i, start_s}, acting = {scene, i, forces_s};
-        p->randomness = at_time(&start, system->collide.randomness);
-        p->slowdown = at_time(&start, system->collide.slowdown);
-        p->restitution = at_time(&start, system->collide.restitution);
-        p->friction = at_time(&start, system->collide.friction);
-        p->family.chance = at_time(&start, system->collide.chance);
+        const struct kiln_sim_moment start = {scene, i, start_s}, acting = {scene, i, forces_s};
+        p->randomness = kiln_sim_value_at(&start, system->collide.randomness);
+        p->slowdown = kiln_sim_value_at(&start, system->collide.slowdown);
+        p->restitution = kiln_sim_value_at(&start, system->collide.restitution);
+        p->friction = kiln_sim_value_at(&start, system->collide.friction);
+        p->family.chance = kiln_sim_value_at(&start, system->collide.chance);
         for (uint32_t k = 0; k < system->force_count; k++)
-            p->forces[k] = force_at_time(&acting, params->grids, &system->forces[k]);
+            p->forces[k] = kiln_sim_force_params(&acting, params->grids, &system->forces[k]);
+        place_demitters(p, scene, system, end_s);
     }
     kiln_sim_colliders_fill(&params->surroundings, scene, params->grids, start_s, end_s);
     return true;
