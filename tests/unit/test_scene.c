@@ -232,6 +232,8 @@ static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
         }
         node->position.path.points.at = path->points.at;
         node->position.path.table = path->table;
+        assert_string_equal(node->animation.clip, right->nodes[i].animation.clip);
+        node->animation.clip = right->nodes[i].animation.clip;
     }
     for (uint32_t i = 0; i < left->system_count; i++) {
         take_attach(&left->systems[i].emit.attach, &right->systems[i].emit.attach);
