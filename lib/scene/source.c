@@ -143,6 +143,8 @@ static bool settle_mesh(struct making *m)
         from->of_object ? &m->scene->backdrop.objects[from->number] : NULL;
     const bool posed = object && object->animation.enabled;
     ok = ok && fill_mesh(m, posed ? object->shown : mesh, mesh, file);
+    if (ok)
+        m->source->making += kiln_mesh_bytes(mesh);
     kiln_mesh_destroy(&mesh);
     return ok;
 }
@@ -315,4 +317,14 @@ uint64_t kiln_sources_texels(const struct kiln_scene *scene)
         texels += source ? source->texel_count : 0;
     }
     return texels;
+}
+
+uint64_t kiln_sources_making(const struct kiln_scene *scene)
+{
+    uint64_t most = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        most = source && source->making > most ? source->making : most;
+    }
+    return most;
 }

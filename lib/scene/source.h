@@ -23,6 +23,7 @@ struct kiln_source {
     uint32_t first_texel;   /* among those of all systems */
     uint32_t (*corners)[3]; /* vertices of the triangles, if the mesh has an animation */
     char hash[65];          /* of the mesh, or of its colours; "": an image or a path */
+    uint64_t making;        /* bytes that making it took, beside what it has and pictures */
 };
 
 /* Makes the sources of all enabled systems. The backdrop and the nodes must be settled. */
@@ -35,9 +36,11 @@ bool kiln_sources_add_hashes(const struct kiln_scene *scene, bool motion, struct
 /* Returns whether particles are born on an object of the backdrop. */
 bool kiln_object_is_source(const struct kiln_scene *scene, const struct kiln_object *object);
 
-/* Return the words of all sources, and the texels of their colours. */
+/* Return the words of all sources, the texels of their colours, and the most bytes that making one
+ * of them took. */
 uint64_t kiln_sources_words(const struct kiln_scene *scene);
 uint64_t kiln_sources_texels(const struct kiln_scene *scene);
+uint64_t kiln_sources_making(const struct kiln_scene *scene);
 
 /* Returns the colour of the place where a particle was born, linear. */
 float3 kiln_source_color(const struct kiln_source *source, uint32_t stream);

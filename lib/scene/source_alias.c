@@ -3,7 +3,11 @@
  * of its float. */
 #include "scene/source_alias.h"
 
+#include <assert.h>
 #include <stdlib.h>
+
+static_assert(KILN_ALIAS_BYTES == 2 * sizeof(double) + sizeof(uint32_t) + sizeof(struct kiln_alias),
+              "weights, what is left of them, the list and the table");
 
 bool kiln_alias_fill(const double *weights, uint32_t count, struct kiln_alias *table)
 {

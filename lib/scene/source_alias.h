@@ -11,6 +11,9 @@ struct kiln_alias {
     uint32_t other;
 };
 
+/* The bytes that filling takes for a cell, the table and the weights included. */
+enum { KILN_ALIAS_BYTES = 28 };
+
 /* Fills the table for weights that are finite and not negative, whose sum is above 0. A cell of
  * weight 0 is never taken. Returns false when memory is short. */
 bool kiln_alias_fill(const double *weights, uint32_t count, struct kiln_alias *table);

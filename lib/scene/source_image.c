@@ -76,6 +76,7 @@ bool kiln_source_fill_image(struct kiln_arena *arena, const struct kiln_asset_im
     double *weights = malloc(count * sizeof *weights);
     struct kiln_alias *table = malloc(count * sizeof *table);
     uint32_t *pixels = malloc(count * sizeof *pixels), next = 0;
+    source->making = (uint64_t)count * (KILN_ALIAS_BYTES + sizeof *pixels);
     source->cells = source->word_count = count;
     source->words = kiln_arena_alloc(arena, count, sizeof *source->words);
     bool ok = weights && table && pixels && source->words &&

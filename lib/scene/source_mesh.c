@@ -83,6 +83,7 @@ static bool fill_triangles(const struct kiln_mesh *mesh, const struct placing *a
         areas[i] = kiln_source_triangle(mesh, i, corners);
         sum += areas[i];
     }
+    source->making = (uint64_t)count * KILN_ALIAS_BYTES;
     *has_area = !ok || (sum > 0 && isfinite(sum));
     ok = ok && *has_area && kiln_alias_fill(areas, count, table);
     for (uint32_t i = 0; ok && i < count; i++)

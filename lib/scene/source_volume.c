@@ -236,6 +236,8 @@ bool kiln_source_fill_volume(struct kiln_arena *arena, const struct kiln_mesh *m
         *edge = (float)lattice.edge;
         ok = source->cells == 0 || write_pieces(arena, pieces, source);
     }
+    source->making = mesh->vertex_count * sizeof *vertices + all.room * sizeof *all.items +
+                     (all.count + 1) * sizeof *pieces + (uint64_t)source->cells * KILN_ALIAS_BYTES;
     free(pieces);
     free(all.items);
     free(vertices);

@@ -63,6 +63,10 @@ static inline const struct kiln_trace *kiln_slots_parent(const struct kiln_slots
     return &slots->traces[family_parent_trace(&slots->sim, slot)];
 }
 
+/* Fetches the cells that the births of a block will choose into the cache, if they are born on a
+ * mesh or an image. */
+void kiln_slots_fetch(const struct kiln_sim *sim, uint32_t first_slot, const struct kiln_block *b);
+
 /* Finishes the step of lane i, whose block has been stepped: writes the record of `slot`, and its
  * trace if the system leaves traces. before: the record before the step. */
 void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *b, uint32_t i,

@@ -338,6 +338,8 @@ static inline bool find_births(const struct kiln_sim *sim, uint32_t first_slot, 
         b->born[i] = i < count && step_birth_index(sim, first_slot + i) < births;
         any |= b->born[i];
     }
+    if (any != 0 && sim->step->emit.cells != 0)
+        kiln_slots_fetch(sim, first_slot, b);
     return any != 0;
 }
 

@@ -293,6 +293,7 @@ void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footpr
     /* The scene has the words of sources, too. */
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_words(scene),
                        2 * sizeof(float4));
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_making(scene));
     kiln_sim_posed_footprint(scene, footprint);
     kiln_volumes_footprint(scene, footprint);
 }
