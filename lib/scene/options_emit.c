@@ -216,11 +216,30 @@ KINDS(events) = {
     {.name = NULL},
 };
 
+#define OF_PARENT(name, field, help)                                                               \
+    BOOLEAN(IF_LOOKS_ARE_INHERITED, name, parent.look.field, "false", help)
+
+TABLE(inherited) = {
+    OF_PARENT("color", color,
+              "Particles have the parent's `look.color` of the moment of their birth instead of "
+              "their own."),
+    OF_PARENT("size", size,
+              "Particles have the parent's `look.size` of the moment of their birth instead of "
+              "their own; `look.scale` multiplies it."),
+    OF_PARENT("temperature", temperature,
+              "Particles have the parent's `look.temperature` of the moment of their birth instead "
+              "of their own."),
+    END,
+};
+
 TABLE(parent) = {
     {ROW(MOTION, "system", name, parent.name, NULL,
          "Name of the system whose particles give birth to these.")},
     KIND(MOTION, "on", events, parent.event, "{death: {}}",
          "The event at which particles are born, and how many are born."),
+    GROUP(IF_LOOKS_ARE_INHERITED, "inherit", inherited,
+          "What particles have of the look of the parent's particle. Those values of the parent "
+          "may vary over life, age and random numbers."),
     END,
 };
 

@@ -89,6 +89,7 @@ struct own_value {
     unsigned count;
     struct place place;
     bool is_mean;
+    bool of_parent; /* it is a value of the parent's look, at the particle's birth */
 };
 
 struct own_values {
@@ -102,59 +103,83 @@ static void add_own(struct own_values *own, struct own_value value)
         own->values[own->count++] = value;
 }
 
-/* Adds a vector: as a whole, or each of its components that has a clock of its own. */
+/* Adds a vector: as a whole, or each of its components that has a clock of its own, or all of them
+ * if it is the parent's. */
 static void add_vector(struct own_values *own, const float4 *keys, const struct kiln_value3 *v,
-                       struct place place)
+                       struct place place, bool of_parent)
 {
     const struct kiln_value *parts[3] = {&v->x, &v->y, &v->z};
     const bool whole = kiln_value3_is_whole(keys, v);
-    if (whole && kiln_look_value_is_own(keys, &v->x)) {
-        add_own(own, (struct own_value){{parts[0], parts[1], parts[2]}, 3, place, false});
+    if (whole && (of_parent || kiln_look_value_is_own(keys, &v->x))) {
+        add_own(own,
+                (struct own_value){{parts[0], parts[1], parts[2]}, 3, place, false, of_parent});
         return;
     }
     for (unsigned c = 0; c < 3 && !whole; c++) {
         place.lanes = 1u << c;
-        if (kiln_look_value_is_own(keys, parts[c]))
-            add_own(own, (struct own_value){{parts[c]}, 1, place, false});
+        if (of_parent || kiln_look_value_is_own(keys, parts[c]))
+            add_own(own, (struct own_value){{parts[c]}, 1, place, false, of_parent});
     }
 }
 
-static void find_own(const struct kiln_scene *scene, const struct kiln_look *look,
-                     struct own_values *own)
+struct kiln_inherited kiln_look_inherited(const struct kiln_scene *scene, uint32_t index)
 {
-    const bool additive = look->blend == KILN_BLEND_ADD;
+    const struct kiln_parent *parent = &scene->systems[index].emit.parent;
+    return parent->enabled ? parent->look : (struct kiln_inherited){false, false, false};
+}
+
+/* Returns whether a value at a place of struct kiln_look is among those that are inherited. */
+static bool is_inherited(struct kiln_inherited inherited, size_t at)
+{
+    return (inherited.size && at == offsetof(struct kiln_look, size)) ||
+           (inherited.temperature && at == offsetof(struct kiln_look, temperature)) ||
+           (inherited.color && at == offsetof(struct kiln_look, color));
+}
+
+static void find_own(const struct kiln_scene *scene, uint32_t index, struct own_values *own)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    const struct kiln_inherited inherited = kiln_look_inherited(scene, index);
+    const char *look = (const char *)&system->look;
+    const char *of_parent = (const char *)&scene->systems[system->emit.parent.system].look;
+    const bool additive = system->look.blend == KILN_BLEND_ADD;
     own->count = 0;
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
+        const bool has = is_inherited(inherited, scalars[i].at);
         const struct kiln_value *value =
-            (const struct kiln_value *)((const char *)look + scalars[i].at);
-        if (kiln_look_value_is_own(scene->keys, value))
-            add_own(own, (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean});
+            (const struct kiln_value *)((has ? of_parent : look) + scalars[i].at);
+        if (has || kiln_look_value_is_own(scene->keys, value))
+            add_own(own, (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean, has});
     }
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        const bool has = is_inherited(inherited, vectors[i].at);
         const struct kiln_value3 *vector =
-            (const struct kiln_value3 *)((const char *)look + vectors[i].at);
+            (const struct kiln_value3 *)((has ? of_parent : look) + vectors[i].at);
         if (vectors[i].place.of == OF_ANY || (vectors[i].place.of == OF_FIRE) == additive)
-            add_vector(own, scene->keys, vector, vectors[i].place);
+            add_vector(own, scene->keys, vector, vectors[i].place, has);
     }
 }
 
-/* Replaces a value over another clock than life by 1. */
-static void replace_own(const float4 *keys, void *look, size_t at)
+/* Replaces a value by 1 that is inherited, or varies over another clock than life. */
+static void replace_own(const float4 *keys, void *look, size_t at, bool inherited)
 {
     struct kiln_value *value = (struct kiln_value *)((char *)look + at);
-    if (kiln_look_value_is_own(keys, value))
+    if (inherited || kiln_look_value_is_own(keys, value))
         *value = (struct kiln_value){.constant = 1.0f};
 }
 
-struct kiln_look kiln_look_over_life(const float4 *keys, const struct kiln_look *look)
+struct kiln_look kiln_look_over_life(const struct kiln_scene *scene, uint32_t index)
 {
-    struct kiln_look over_life = *look;
+    const float4 *keys = scene->keys;
+    const struct kiln_inherited inherited = kiln_look_inherited(scene, index);
+    struct kiln_look over_life = scene->systems[index].look;
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
-        replace_own(keys, &over_life, scalars[i].at);
+        replace_own(keys, &over_life, scalars[i].at, is_inherited(inherited, scalars[i].at));
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, x));
-        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, y));
-        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, z));
+        const bool has = is_inherited(inherited, vectors[i].at);
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, x), has);
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, y), has);
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, z), has);
     }
     return over_life;
 }
@@ -231,6 +256,8 @@ static void make_program(const struct kiln_scene *scene, const struct own_values
             value->parts |= 1u << part;
             value->part[part] =
                 make_part(scene->keys, value_part(scene->keys, *first, part), (*rows)++);
+            if (from->of_parent && value->part[part].clock != KILN_CLOCK_CONSTANT)
+                value->part[part].flags |= LOOK_PART_PARENT;
         }
         if (from->place.light != PLAIN)
             add_light(value, (*rows)++);
@@ -248,7 +275,7 @@ uint32_t kiln_look_rows(const struct kiln_scene *scene)
     struct kiln_look_program program;
     uint32_t rows = base_rows(scene);
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        find_own(scene, &scene->systems[i].look, &own);
+        find_own(scene, i, &own);
         make_program(scene, &own, &rows, &program);
     }
     return rows;
@@ -261,7 +288,7 @@ void kiln_look_programs_fill(const struct kiln_scene *scene,
     uint32_t rows = base_rows(scene);
     memset(programs, 0, KILN_MAX_SYSTEMS * sizeof *programs);
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        find_own(scene, &scene->systems[i].look, &own);
+        find_own(scene, i, &own);
         make_program(scene, &own, &rows, &programs[i]);
     }
 }
@@ -368,7 +395,7 @@ void kiln_look_programs_sample(const struct kiln_scene *scene,
         const struct value_clocks clocks = kiln_scene_clocks(scene, i, time_s);
         if (program->count == 0)
             continue;
-        find_own(scene, look, &own);
+        find_own(scene, i, &own);
         write_program(table, program);
         for (uint32_t v = 0; v < program->count; v++) {
             const struct kiln_look_value *value = &program->values[v];
@@ -408,11 +435,12 @@ static float4 row_at(const float4 *table, uint32_t row, float place)
 /* Returns what a part's clock shows. */
 static float clock_of(const struct kiln_look_part *part, const struct value_clocks *clocks)
 {
+    const bool parent = (part->flags & LOOK_PART_PARENT) != 0;
     switch (part->clock) {
     case KILN_CLOCK_LIFE:
-        return clocks->life;
+        return parent ? clocks->parent_life : clocks->life;
     case KILN_CLOCK_AGE:
-        return clocks->age_s;
+        return parent ? clocks->parent_age_s : clocks->age_s;
     case KILN_CLOCK_SPEED:
         return float3_length(clocks->velocity);
     case KILN_CLOCK_HEIGHT:
@@ -420,7 +448,7 @@ static float clock_of(const struct kiln_look_part *part, const struct value_cloc
     case KILN_CLOCK_DISTANCE:
         return clocks->distance;
     case KILN_CLOCK_RANDOM:
-        return random_unit(clocks->stream, part->draw);
+        return random_unit(parent ? clocks->parent_stream : clocks->stream, part->draw);
     case KILN_CLOCK_NOISE:
         return value_noise_at((struct value_noise){random_bits(clocks->stream, part->draw),
                                                    part->octaves,

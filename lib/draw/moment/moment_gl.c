@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "gpu/buffer.h"
 #include "option/value_curve.h"
+#include "scene/family.h"
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_look) == 112 + 16 * KILN_MAX_TEXTURES, "std140");
@@ -32,6 +33,11 @@ void kiln_moment_gl_defines(const struct kiln_scene *scene, struct kiln_text *de
         kiln_text_add(defines, "#define USES_CLOCKS %uu\n", clocks);
     if (kiln_look_rows(scene) > base_rows)
         kiln_text_add(defines, "#define LOOK_VALUES 1\n");
+    bool inherits = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        inherits = inherits || kiln_family_inherits(&scene->systems[i]);
+    if (inherits)
+        kiln_text_add(defines, "#define LOOK_PARENTS 1\n");
 }
 
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)

@@ -13,6 +13,7 @@
 // variant:
 // variant: SPINS=1
 // variant: LOOK_VALUES=1
+// variant: LOOK_VALUES=1 LOOK_PARENTS=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 

@@ -6,6 +6,7 @@
 // variant: SHAPES=1 TILED_EDGE=16
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1 TILED_EDGE=16
 // variant: SHAPES=1 LOOK_VALUES=1 TILED_EDGE=16
+// variant: SHAPES=1 LOOK_VALUES=1 LOOK_PARENTS=1 TILED_EDGE=16
 // variant: SHAPES=1 HAZE=1 TILED_EDGE=16
 #include "shared/draw_layout.h"
 
