@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "scene/family.h"
@@ -73,14 +74,19 @@ static bool check_particle(const struct kiln_particle *p, const struct kiln_pool
     const uint32_t born = particle_birth_step(*p), serial = place.w;
     const float most = BITS_FLOAT(STEP_ABSURD_BITS);
     if (!particle_is_alive(*p)) {
-        if ((place.x | place.y | place.z | place.w | speed.x | speed.y | speed.z | speed.w) != 0)
+        const struct kiln_particle left = particle_remains(*p);
+        if (memcmp(&left, p, sizeof left) != 0 || (!particle_is_there(*p) && serial != 0))
             FAULT(fault, "found a dead particle that is not empty");
-    } else if (born == 0 || born > step) {
+    }
+    if (fault->text[0] != '\0' || !particle_is_there(*p))
+        return fault->text[0] == '\0';
+    if (born == 0 || born > step) {
         FAULT(fault, "step of birth: found %u, expected 1 to %u", born, step);
     } else if (serial >= system->next_serial || serial % system->capacity != slot) {
         FAULT(fault, "serial: found %u, expected one of this slot below %" PRIu64, serial,
               system->next_serial);
-    } else if (check_axes((const uint32_t[3]){place.x, place.y, place.z}, most, "position, m",
+    } else if (particle_is_alive(*p) &&
+               check_axes((const uint32_t[3]){place.x, place.y, place.z}, most, "position, m",
                           fault) &&
                particle_has_stopped(*p)) {
         check_rest(p, step, fault);
@@ -240,15 +246,22 @@ static void count_births(const struct kiln_scene *scene, uint32_t index, uint32_
     }
 }
 
-/* Checks that no particle of a system has been dead for a whole step. A step of tolerance is left
+/* Checks that slots of the dead are empty, unless children inherit their looks, and that no
+ * particle of a system has been dead for a whole step. A step of tolerance is left
  * to devices that round ages in their own way. */
 static bool check_ages(const struct kiln_particle *records, const struct kiln_pool_system *slots,
                        const struct kiln_scene *scene, uint32_t index, uint32_t step,
                        const char *path, struct kiln_error *error)
 {
     const struct kiln_derived_params derived = kiln_scene_derived(scene, index);
+    const bool kept = kiln_family_is_inherited(scene, index);
     for (uint32_t slot = 0; slot < slots->capacity; slot++) {
         const struct kiln_particle particle = records[slots->base + slot];
+        if (!particle_is_alive(particle) && particle_is_there(particle) && !kept)
+            return kiln_error_set(
+                error, KILN_INVALID_INPUT,
+                "%s: systems.%s, slot %u: found a dead particle that is not empty", path,
+                scene->systems[index].name, slot);
         if (!particle_is_alive(particle))
             continue;
         const float age_s = particle_age(particle, step, derived.dt_s);

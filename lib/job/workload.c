@@ -218,7 +218,10 @@ static double pixels_of(const struct kiln_workload *w, const struct kiln_system 
                               (double)(eye.z - target.z));
     const double half = tan(0.5 * (double)kiln_scene_value(scene, &scene->camera.fov, time_s));
     const double per_metre = 0.5 * scene->height / (half * fmax(away, 1e-3));
-    const double edge = per_metre * (double)kiln_scene_value_max(scene, &system->look.size);
+    const struct kiln_parent *parent = &system->emit.parent;
+    const struct kiln_system *sized =
+        parent->enabled && parent->look.size ? &scene->systems[parent->system] : system;
+    const double edge = per_metre * (double)kiln_scene_value_max(scene, &sized->look.size);
     return fmin(edge * edge, (double)scene->width * scene->height);
 }
 

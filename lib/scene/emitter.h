@@ -61,6 +61,11 @@ enum kiln_align {
 };
 
 /* Births of particles from particles of another system: shared/family.h. */
+/* What children have of the look of their parent at their birth, instead of their own. */
+struct kiln_inherited {
+    bool color, size, temperature;
+};
+
 struct kiln_parent {
     bool enabled;
     const char *name;
@@ -74,7 +79,8 @@ struct kiln_parent {
     struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
     double per_metre;       /* trail: children a metre of the parent's way; 0: by the rate */
     uint32_t most;          /* trail by the metre: the most children of one parent */
-    uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
+    struct kiln_inherited look;
+    uint32_t slots; /* slots for the children of one parent: above 0 when enabled */
 };
 
 struct kiln_emitter {

@@ -19,6 +19,11 @@ uint32_t kiln_family_counted_hits(const struct kiln_scene *scene, uint32_t syste
  * birth word counts. */
 bool kiln_family_travels(const struct kiln_scene *scene, uint32_t system);
 
+/* Returns whether particles of a system inherit something of their parent's look, and whether those
+ * of a system have children that do. */
+bool kiln_family_inherits(const struct kiln_system *system);
+bool kiln_family_is_inherited(const struct kiln_scene *scene, uint32_t system);
+
 /* Fills order[] with all systems, parents before their children. */
 void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_SYSTEMS]);
 

@@ -262,8 +262,7 @@ TABLE(trail) = {
           "those of the parent's particle."),
     {ROW(IF_BY_METRE, "per_metre", number, parent.per_metre, "0 1/m",
          "Particles born a metre of the way of a particle of the parent, at even distances, "
-         "instead "
-         "of `rate`. With 0, the rate counts."),
+         "instead of `rate`. With 0, the rate counts."),
      LIMITS(KILN_PER_METRE, 0, 100000)},
     INTEGER(IF_BY_METRE, "most", parent.most, 1, 65536, "256",
             "With `per_metre`: the most particles born of one particle of the parent."),
@@ -290,9 +289,25 @@ KINDS(events) = {
      .value = KILN_EVENT_TRAIL,
      MEMBERS(trail),
      .shortcut = "rate",
-     .help = "Particles are born all along the way of a particle of the parent, the first one "
-             "where it is born."},
+     .help = "Particles are born all along the way of a particle of the parent: by the rate, the "
+             "first one where it is born, and by the metre, when it has gone the first distance."},
     {.name = NULL},
+};
+
+#define OF_PARENT(name, field, help)                                                               \
+    BOOLEAN(IF_LOOKS_ARE_INHERITED, name, parent.look.field, "false", help)
+
+TABLE(inherited) = {
+    OF_PARENT("color", color,
+              "Particles have the parent's `look.color` of the moment of their birth instead of "
+              "their own."),
+    OF_PARENT("size", size,
+              "Particles have the parent's `look.size` of the moment of their birth instead of "
+              "their own; `look.scale` multiplies it."),
+    OF_PARENT("temperature", temperature,
+              "Particles have the parent's `look.temperature` of the moment of their birth instead "
+              "of their own."),
+    END,
 };
 
 TABLE(parent) = {
@@ -300,6 +315,9 @@ TABLE(parent) = {
          "Name of the system whose particles give birth to these.")},
     KIND(MOTION, "on", events, parent.event, "{death: {}}",
          "The event at which particles are born, and how many are born."),
+    GROUP(IF_LOOKS_ARE_INHERITED, "inherit", inherited,
+          "What particles have of the look of the parent's particle. Those values of the parent "
+          "may vary over life, age and random numbers."),
     END,
 };
 
@@ -310,8 +328,8 @@ TABLE(emit_options) = {
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
     {ROW(IF_EMITTED_BY_METRE, "per_metre", number, per_metre, "0 1/m",
          "Particles born a metre of the way of the origin of `from`, at even distances, beside "
-         "those "
-         "of `rate`. The origin moves if it has keys, or by the node that it is attached to."),
+         "those of `rate`. The origin moves if it has keys, or by the node that it is attached "
+         "to."),
      LIMITS(KILN_PER_METRE, 0, 100000)},
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
          "Particles that are born at once: a map of clip times, in seconds, to their numbers, or a "

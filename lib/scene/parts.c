@@ -137,6 +137,13 @@ unsigned kiln_row_if_by_metre(const void *scene, const void *emit)
     return parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0 ? BOTH : 0;
 }
 
+unsigned kiln_row_if_looks_are_inherited(const void *scene, const void *emit)
+{
+    (void)scene;
+    const struct kiln_inherited *look = &((const struct kiln_emitter *)emit)->parent.look;
+    return look->color || look->size || look->temperature ? BOTH : 0;
+}
+
 unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit)
 {
     (void)scene;

@@ -47,6 +47,10 @@ unsigned kiln_row_if_each_bounce(const void *scene, const void *emit);
 /* Returns the bits of all parts if children are born by the metre, and otherwise 0. */
 unsigned kiln_row_if_by_metre(const void *scene, const void *emit);
 
+/* Returns the bits of all parts if children inherit something of their parent's look, which the
+ * state has to know, and otherwise 0. */
+unsigned kiln_row_if_looks_are_inherited(const void *scene, const void *emit);
+
 /* Returns the bits of all parts if an emitter has births by the metre, and otherwise 0. */
 unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit);
 
@@ -86,6 +90,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_EACH_BOUNCE           kiln_row_if_each_bounce
 #define IF_BY_METRE              kiln_row_if_by_metre
 #define IF_EMITTED_BY_METRE      kiln_row_if_emitted_by_metre
+#define IF_LOOKS_ARE_INHERITED   kiln_row_if_looks_are_inherited
 #define IF_NOT_CERTAIN           kiln_row_if_not_certain
 #define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
 #define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached

@@ -49,4 +49,23 @@ FN float particle_progress(float age_s, float life_s)
     return progress;
 }
 
+/* Returns the clocks of a particle with those of its parent at its birth, which its look may
+ * inherit. of_parent: the parameters of the parent's system; parent: the parent, or what is left of
+ * it. */
+FN S(value_clocks) particle_clocks_of_child(VALUE_KEYS_PARAM S(value_clocks) clocks,
+                                            S(kiln_derived_params) of_parent,
+                                            S(kiln_particle) parent, S(kiln_particle) child)
+{
+    EXACT S(value_clocks) y = clocks;
+    EXACT float life_s = particle_life_s(VALUE_KEYS of_parent, parent);
+    EXACT float whole = FLOAT(particle_birth_step(child) - particle_birth_step(parent));
+    EXACT float part = particle_birth_fraction(child) - particle_birth_fraction(parent);
+    EXACT float steps = whole + part;
+    EXACT float age_s = steps * of_parent.dt_s;
+    y.parent_age_s = exact_max(age_s, 0.0f);
+    y.parent_life = particle_progress(y.parent_age_s, life_s);
+    y.parent_stream = particle_stream(of_parent, parent);
+    return y;
+}
+
 #endif

@@ -81,7 +81,8 @@ FN float family_way_count(S(family_way) way, float per_metre)
 
 FN S(family_way) family_way_at(SIM_PARAM uint row)
 {
-    uint4 words = SPIN_WORD(row * 2u);
+    uint at = row * 2u;
+    uint4 words = SPIN_WORD(at);
     S(family_way) way;
     way.parts = words.x;
     way.metres = words.y;
@@ -95,15 +96,16 @@ FN void family_travel(SIM_PARAM uint slot, bool born, S(kiln_trace) t)
     EXACT S(family_pieces) pieces = family_pieces_of(t);
     EXACT float length = pieces.first + pieces.second;
     uint row = STEP(family.ways) + slot;
+    uint at = row * 2u;
     S(family_way) way = family_way_of(length);
     uint hits = 0u;
     if (!born) {
         way = family_way_add(family_way_at(SIM row), way);
-        hits = SPIN_WORD(row * 2u).z;
+        hits = SPIN_WORD(at).z;
     }
     if ((t.serial_event.y & TRACE_TURN) != 0u && hits < STEP(family.counted))
         hits++;
-    SPIN_WORD(row * 2u) = UINT4(way.parts, way.metres, hits, 0u);
+    SPIN_WORD(at) = UINT4(way.parts, way.metres, hits, 0u);
 }
 
 #endif
@@ -113,9 +115,9 @@ FN void family_travel(SIM_PARAM uint slot, bool born, S(kiln_trace) t)
 FN uint family_hits(SIM_PARAM uint slot, S(kiln_particle) p)
 {
 #if FAMILY_HAS_WAYS
+    uint at = (STEP(family.ways) + slot) * 2u;
     if (STEP(family.counted) > KILN_PARTICLE_MOST_HITS)
-        return particle_birth_step(p) == STEP(step) ? 0u
-                                                    : SPIN_WORD((STEP(family.ways) + slot) * 2u).z;
+        return particle_birth_step(p) == STEP(step) ? 0u : SPIN_WORD(at).z;
 #endif
     return particle_hits(p);
 }

@@ -186,7 +186,7 @@ struct kiln_family_params {
     uint ways;        /* row of its first way among spins and ways */
     uint parent_ways; /* that of the parent system */
     float per_metre;  /* way: children a metre of the parent's way */
-    uint unused0;
+    uint keeps;       /* 1: the dead keep serial and birth, by which children know their looks */
     S(kiln_value) rate;   /* trail: children a second of the parent's life */
     S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };

@@ -74,6 +74,23 @@ FN uint particle_birth_with_hits(uint birth, uint hits)
     return others | (hits & 1u) << 1u | (hits & 2u) << 2u;
 }
 
+/* Returns whether a slot has a particle, or what is left of one. */
+FN bool particle_is_there(S(kiln_particle) p)
+{
+    return p.velocity_birth.w != 0u;
+}
+
+/* Returns what is left of a particle that has died in a system whose children inherit its look: its
+ * serial, and the time of its birth. */
+FN S(kiln_particle) particle_remains(S(kiln_particle) p)
+{
+    uint birth = p.velocity_birth.w & ~((1u << KILN_BIRTH_FRACTION_SHIFT) - 1u);
+    S(kiln_particle) left;
+    left.position_serial = UINT4(0u, 0u, 0u, p.position_serial.w);
+    left.velocity_birth = UINT4(0u, 0u, 0u, birth);
+    return left;
+}
+
 FN uint particle_birth_step(S(kiln_particle) p)
 {
     return p.velocity_birth.w >> KILN_BIRTH_STEP_SHIFT;

@@ -18,13 +18,14 @@ FN S(state_hash_lanes) state_hash_word(S(state_hash_lanes) lanes, uint word)
     return mixed;
 }
 
-/* Returns the words that a particle adds to the two sums; zero for a dead particle. */
+/* Returns the words that a particle, or what is left of one, adds to the two sums; zero for an
+ * empty slot. */
 FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
 {
     S(state_hash_lanes) lanes;
     lanes.a = 0u;
     lanes.b = 0u;
-    if (!particle_is_alive(p))
+    if (!particle_is_there(p))
         return lanes;
     lanes.a = system + 0x6b696c6eu;
     lanes.b = system + 0x7374617eu;

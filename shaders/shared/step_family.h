@@ -251,6 +251,8 @@ FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(
         EXACT S(step_push) push = push_of(SIM slot);
         r = step_family_particle(SIM p, push);
     }
+    if (STEP(family.keeps) != 0u && !particle_is_alive(r.particle))
+        r.particle = particle_remains(p);
 #if FAMILY_HAS_WAYS
     if (STEP(family.travels) != 0u && (r.trace.serial_event.y & TRACE_ALIVE) != 0u)
         family_travel(SIM slot, particle_birth_step(p) == STEP(step), r.trace);

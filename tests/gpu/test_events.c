@@ -131,7 +131,7 @@ static const char TRAILS[] =
     "    collide: {restitution: 0.9, slowdown: 1}\n"
     "  dust:\n"
     "    emit: {parent: {system: balls, on: {bounce: {count: [1, 3], every: true, most: 6,\n"
-    "           align: normal}}},\n"
+    "           align: normal}}, inherit: {size: true}},\n"
     "           life: 0.4 s}\n"
     "  smoke:\n"
     "    emit: {parent: {system: balls, on: {trail: {per_metre: 9, most: 40}}}, inherit: 0.5,\n"
@@ -144,7 +144,8 @@ static const char TRAILS[] =
     "    emit: {parent: {system: sticky, on: {bounce: {count: 1, every: true, most: 2}}},\n"
     "           life: 0.2 s, inherit: 1}\n"
     "  end:\n"
-    "    emit: {parent: {system: sticky, on: {death: 1}}, life: 0.2 s, inherit: 1}\n";
+    "    emit: {parent: {system: sticky, on: {death: 1}, inherit: {color: true}}, life: 0.2 s,\n"
+    "           inherit: 1}\n";
 
 static void trails_agree(void **state)
 {

@@ -185,21 +185,6 @@ static const struct bad types[] = {
      ":2:31: systems.a.collide.then: must not be stick where particles interact, since nothing "
      "pushes a particle that has stopped"},
     {"kiln: 1\n"
-     "systems: {a: {}, b: {emit: {parent: {system: a}, per_metre: 9}}}\n",
-     ":2:61: systems.b.emit.per_metre: must be 0 for a system with a parent; emit.parent.on sets "
-     "the number of births"},
-    {"kiln: 1\n"
-     "output: {frames: 1e6, fps: 60}\n"
-     "simulation: {rate: 240}\n"
-     "systems: {a: &a {emit: {per_metre: 9}}, b: *a, c: *a, d: *a, e: *a}\n",
-     ":4:10: systems: the ways of emitters by the metre have 19999980 steps; at most 16777216 are "
-     "allowed: shorten the clip, or write `rate` instead"},
-    {"kiln: 1\n"
-     "output: {frames: 600, fps: 60}\n"
-     "systems: {a: {emit: {per_metre: 1e5, from: {point: {origin: {keys: {0 s: [-4e4, 0, 0],\n"
-     "  9 s: [4e4, 0, 0]}}}}}}}\n",
-     ":3:33: systems.a.emit.per_metre: the run has more than 4294967295 births by the metre"},
-    {"kiln: 1\n"
      "systems: {a: {forces: [drag: {region: {falloff: 1 m}}]}}\n",
      ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`"},
     {"kiln: 1\n"

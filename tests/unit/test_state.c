@@ -87,6 +87,7 @@ static void runs_go_on(void **state)
     check_scene("rest", "systems.shards.emit.parent.on={trail: {per_metre: 20}}", 57);
     check_scene("rest", "systems.shards.emit.parent.on={bounce: {count: 2, every: true}}", 57);
     check_scene("rest", "systems.shards.emit.parent.on={bounce: {every: true, most: 5}}", 57);
+    check_scene("rest", "systems.shards.emit.parent.inherit.color=true", 57);
     check_scene("surfaces", "systems.drops.collide.then=stick", 60);
     check_scene("surfaces", "backdrop.objects.2.mesh.paint.per_step=2", 60); /* splats that wait */
 }

@@ -4,6 +4,7 @@
 
 #include <assert.h>
 
+#include "scene/family.h"
 #include "shared/derived.h"
 #include "shared/exact.h"
 #include "shared/look_layout.h"
@@ -35,7 +36,8 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
                                                      uint32_t index)
 {
     const struct kiln_pool_system *slots = &moment->pool->systems[index];
-    return (struct kiln_appearance_system){
+    const struct kiln_parent *parent = &moment->scene->systems[index].emit.parent;
+    struct kiln_appearance_system system = {
         .derived = kiln_scene_derived(moment->scene, index),
         .keys = moment->scene->keys,
         .records = moment->records + slots->base,
@@ -50,6 +52,12 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
         .dt_s = moment->scene->dt_s,
         .spins = moment->spins && slots->spins ? moment->spins + slots->first_spin : NULL,
     };
+    if (kiln_family_inherits(&moment->scene->systems[index])) {
+        system.of_parent = kiln_scene_derived(moment->scene, parent->system);
+        system.parents = moment->records + moment->pool->systems[parent->system].base;
+        system.slots_of_parent = parent->slots;
+    }
+    return system;
 }
 
 struct value_clocks kiln_appearance_clocks(const struct kiln_appearance_system *system,
@@ -65,6 +73,9 @@ struct value_clocks kiln_appearance_clocks(const struct kiln_appearance_system *
     clocks.distance = float3_length(float3_sub(position, system->eye));
     clocks.velocity = particle_velocity(record);
     clocks.stream = particle_stream(system->derived, record);
+    if (system->parents)
+        clocks = particle_clocks_of_child(system->keys, clocks, system->of_parent,
+                                          system->parents[slot / system->slots_of_parent], record);
     return clocks;
 }
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "gpu/buffer.h"
 #include "option/value_curve.h"
+#include "scene/family.h"
 #include "scene/source.h"
 #include "shared/source.h"
 
@@ -37,6 +38,11 @@ void kiln_moment_gl_defines(const struct kiln_scene *scene, struct kiln_text *de
         kiln_text_add(defines, "#define LOOK_VALUES 1\n");
     if (kiln_sources_texels(scene) > 0)
         kiln_text_add(defines, "#define LOOK_SOURCES 1\n");
+    bool inherits = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        inherits = inherits || kiln_family_inherits(&scene->systems[i]);
+    if (inherits)
+        kiln_text_add(defines, "#define LOOK_PARENTS 1\n");
 }
 
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)

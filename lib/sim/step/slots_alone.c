@@ -122,6 +122,8 @@ void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *
         trace = trace_flight(sim, b, i, before);
         if (family->travels)
             family_travel(sim, slot, false, trace);
+    } else if (family->keeps) {
+        *record = particle_remains(before);
     }
     if (family->traced)
         slots->traces[family->traces + slot] = trace;

@@ -242,6 +242,7 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         }
         if (kiln_sim_is_traced(scene, index)) {
             family->traced = 1;
+            family->keeps = kiln_family_is_inherited(scene, index);
             family->counted = kiln_family_counted_hits(scene, index);
             family->traces = params->trace_count;
             params->trace_count += system->capacity;

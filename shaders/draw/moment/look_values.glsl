@@ -58,11 +58,12 @@ look_part look_part_of(int first_row, int value, int part)
 /* Returns what a part's clock shows. */
 float look_clock(look_part part, value_clocks clocks)
 {
+    bool parent = (part.flags & LOOK_PART_PARENT) != 0u;
     switch (part.clock) {
     case KILN_CLOCK_LIFE:
-        return clocks.life;
+        return parent ? clocks.parent_life : clocks.life;
     case KILN_CLOCK_AGE:
-        return clocks.age_s;
+        return parent ? clocks.parent_age_s : clocks.age_s;
     case KILN_CLOCK_SPEED:
         return length(clocks.velocity);
     case KILN_CLOCK_HEIGHT:
@@ -70,7 +71,7 @@ float look_clock(look_part part, value_clocks clocks)
     case KILN_CLOCK_DISTANCE:
         return clocks.distance;
     case KILN_CLOCK_RANDOM:
-        return random_unit(clocks.stream, part.draw);
+        return random_unit(parent ? clocks.parent_stream : clocks.stream, part.draw);
     case KILN_CLOCK_NOISE:
         return value_noise_at(value_noise(random_bits(clocks.stream, part.draw), uint(part.count),
                                           exact_div(clocks.time_s, part.period_s)));
@@ -94,7 +95,9 @@ vec4 look_part_at(look_part part, value_clocks clocks)
 {
 #ifdef LOOK_SOURCES
     if (part.clock == LOOK_CLOCK_SOURCE) {
-        vec3 color = source_color(part.row, part.count, clocks.stream);
+        bool parent = (part.flags & LOOK_PART_PARENT) != 0u;
+        vec3 color =
+            source_color(part.row, part.count, parent ? clocks.parent_stream : clocks.stream);
         return vec4(color, color.x);
     }
 #endif

@@ -14,6 +14,7 @@
 // variant: SPINS=1
 // variant: LOOK_VALUES=1
 // variant: LOOK_VALUES=1 LOOK_SOURCES=1
+// variant: LOOK_VALUES=1 LOOK_PARENTS=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 

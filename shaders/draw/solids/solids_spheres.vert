@@ -7,6 +7,7 @@
 // variant: PATTERN=1 SPINS=1
 // variant: PATTERN=1 LOOK_VALUES=1
 // variant: PATTERN=1 LOOK_VALUES=1 LOOK_SOURCES=1
+// variant: PATTERN=1 LOOK_VALUES=1 LOOK_PARENTS=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 

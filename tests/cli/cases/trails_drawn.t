@@ -56,3 +56,32 @@ $ cat >stuck.yaml <<'END'
 > END
 $ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >tetrahedron.obj
 $ ./alike stuck.yaml --frames 50
+
+Looks of parents, most of which are dead, also at moments between two steps:
+
+$ cat >looks.yaml <<'END'
+> kiln: 1
+> output: {size: [192, 108], frames: 60}
+> camera: {position: [0, 1, 3.4], target: [0, 0.8, 0], shutter: {samples: 3}}
+> systems:
+>   before: {emit: {rate: 30}}
+>   shell:
+>     emit: {rate: 40, life: [0.2 s, 0.4 s], speed: [1, 4], from: {cone: {angle: 60 deg}}}
+>     look:
+>       size: {life: [10 cm, 30 cm], times: {random: [0.5, 1]}}
+>       color: {choose: [red, lime, blue], weights: [1, 2, 1]}
+>       temperature: {age: {0 s: 1000, 0.4 s: 3000}}
+>   balls:
+>     emit: {parent: {system: shell, on: {death: 4}, inherit: {color: true, size: true}}, life: 1 s, speed: 2}
+>     look: {shape: sphere, scale: 0.4}
+>   cubes:
+>     emit: {parent: {system: shell, on: {trail: 9}, inherit: {color: true, size: true}}, life: 1 s, speed: 2}
+>     look: {shape: mesh, mesh: {file: tetrahedron.obj}, scale: 0.5}
+>   smoke:
+>     emit: {parent: {system: shell, on: {trail: {per_metre: 9, most: 20}}, inherit: {color: true}}, life: 1 s, speed: 1}
+>     look: {size: 0.3 m, opacity: {life: [0.6, 0]}, lit: 0.5}
+>   fire:
+>     emit: {parent: {system: shell, on: {death: 6}, inherit: {temperature: true}}, life: 1 s, speed: 1}
+>     look: {atlas: "builtin:spark", blend: add, size: 0.2 m, intensity: 9}
+> END
+$ ./alike looks.yaml --frames 50

@@ -1,5 +1,6 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 9 to 13): moves one particle and
- * writes it to the stream; dead particles are left out. A slot that a particle is born into in this
+ * writes it to the stream; dead particles are left out, but for what
+ * children need of their parents. A slot that a particle is born into in this
  * step is skipped, since feedback_emit.geom writes it. With FAMILY, children are born in this
  * shader, since each has a slot of its own. */
 // variant:
@@ -43,6 +44,6 @@ void main()
     if (particle_is_alive(p))
         p = step_particle(p, push_of(slot));
 #endif
-    if (particle_is_alive(p))
+    if (particle_is_there(p))
         write_particle(p);
 }

@@ -39,7 +39,7 @@ void main()
         uint to_wrap = step_params.capacity - step_params.first_slot;
         uint slot = birth < to_wrap ? step_params.first_slot + birth : birth - to_wrap;
         kiln_particle p = slot_after(slot, step_dead());
-        if (particle_is_alive(p))
+        if (particle_is_there(p))
             write_particle(p);
     }
 }
