@@ -238,6 +238,36 @@ static void rests_are_checked(void **state)
     end(&runs);
 }
 
+/* Where children inherit the look of a parent, a dead parent's serial and birth are left. */
+static void remains_are_checked(void **state)
+{
+    (void)state;
+    struct runs runs;
+    struct kiln_error error = {0};
+    start(&runs, "rest", "systems.shards.emit.parent.inherit.color=true");
+    const struct kiln_pool_system *slots = &runs.first.pool.systems[1];
+    const uint32_t slot = find_slot(&runs.first, 1, false);
+    struct kiln_particle *p = &records_of(&runs.first)[slots->base + slot];
+    char place[64], message[96];
+    assert_true(particle_is_there(*p));
+    snprintf(place, sizeof place, "system 1, slot %u", slot);
+    check_word(&runs, &p->position_serial.x, bits_of(1.0f), place,
+               "found a dead particle that is not empty");
+    check_word(&runs, &p->velocity_birth.w, p->velocity_birth.w | KILN_PARTICLE_HIT, place,
+               "found a dead particle that is not empty");
+    check_word(&runs, &p->velocity_birth.w, 71u << KILN_BIRTH_STEP_SHIFT, place,
+               "step of birth: found 71, expected 1 to 70");
+    snprintf(message, sizeof message, "serial: found %u, expected one of this slot below %u",
+             slot + 1, (uint32_t)slots->next_serial);
+    check_word(&runs, &p->position_serial.w, slot + 1, place, message);
+    runs.scene->systems[2].emit.parent.look.color = false;
+    assert_false(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 FILE_NAME ": systems.balls, slot %u: found a dead particle that is not empty",
+                 slot);
+    end(&runs);
+}
+
 static void paint_is_checked(void **state)
 {
     (void)state;
@@ -377,6 +407,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(paint_is_checked, test_enter_folder, test_leave_folder),
         cmocka_unit_test(ways_are_checked),
         cmocka_unit_test(rests_are_checked),
+        cmocka_unit_test(remains_are_checked),
         cmocka_unit_test(births_are_counted),
         cmocka_unit_test_setup_teardown(jobs_refuse_it, test_enter_folder, test_leave_folder),
     };

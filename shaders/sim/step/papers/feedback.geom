@@ -1,8 +1,7 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 9 to 13): moves one particle and
- * writes it to the stream; dead particles are left out, but for what
- * children need of their parents. A slot that a particle is born into in this
- * step is skipped, since feedback_emit.geom writes it. With FAMILY, children are born in this
- * shader, since each has a slot of its own. */
+ * writes it to the stream; dead particles are left out, but for what children need of their
+ * parents. A slot that a particle is born into in this step is skipped, since feedback_emit.geom
+ * writes it. With FAMILY, children are born in this shader, since each has a slot of its own. */
 // variant:
 // variant: FAMILY=1
 // variant: GRIDS=1
