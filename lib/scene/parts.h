@@ -41,6 +41,7 @@ unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
 /* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
  * kiln_force, kiln_object, kiln_light or kiln_camera. */
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
+unsigned kiln_row_if_space_is_of_node(const void *scene, const void *system);
 unsigned kiln_row_if_force_is_attached(const void *scene, const void *force);
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object);
 unsigned kiln_row_if_light_is_attached(const void *scene, const void *light);
@@ -71,6 +72,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_IMPACTS_COUNT         kiln_row_if_impacts_count
 #define IF_NOT_CERTAIN           kiln_row_if_not_certain
 #define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
+#define IF_SPACE_IS_OF_NODE      kiln_row_if_space_is_of_node
 #define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached
 #define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached
 #define IF_LIGHT_IS_ATTACHED     kiln_row_if_light_is_attached

@@ -27,7 +27,8 @@ static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 880, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 1920, "std140");
 static_assert(offsetof(struct kiln_step_params, family) == 9088, "std140");
-static_assert(sizeof(struct kiln_step_params) == 9168, "std140");
+static_assert(offsetof(struct kiln_step_params, carry) == 9184, "std140");
+static_assert(sizeof(struct kiln_step_params) == 9328, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -157,6 +158,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .bounds_min = to_float4(system->bounds.min),
         .bounds_max = to_float4(system->bounds.max),
         .rubs = rubs(scene, &system->collide),
+        .carried = system->space.name != NULL,
     };
     fill_emitter(&params->emit, &system->emit);
     for (uint32_t i = 0; i < system->force_count; i++)
@@ -432,6 +434,8 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
         find_spin(p, scene, i, p->time_s);
         if (p->emit.attached)
             p->emit.frame = kiln_emit_frame(scene, scene->systems[i].emit.attach.node, step);
+        if (p->carried)
+            p->carry = kiln_carry_frame(scene, scene->systems[i].space.node, step);
     }
     return true;
 }
