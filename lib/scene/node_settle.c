@@ -169,6 +169,10 @@ static bool find_systems(struct kiln_reader *reader, const struct kiln_node *roo
         snprintf(path, sizeof path, "systems.%s.emit.attach", system->name);
         if (!find_node(reader, root, path, &emit->attach) || !find_forces(reader, root, system))
             return false;
+        char space[80];
+        snprintf(space, sizeof space, "systems.%s.space", system->name);
+        if (!find_node(reader, root, space, &system->space))
+            return false;
         if (emit->attach.name && emit->parent.enabled)
             return kiln_reader_error_at(reader, root, path,
                                         "must be none for a system with a parent, around whose "

@@ -442,6 +442,11 @@ PUBLIC_TABLE(kiln_options_system) = {
          "it. Two systems of one number draw the same."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_SYSTEM_SEED), .special_word = "auto"},
     GROUP_AT(MOTION, "emit", emit, emit_options, "How particles are born."),
+    {ROW(IF_SPACE_IS_OF_NODE, "space", attach, space, "none",
+         "Node that the particles move with: in each step they are carried as the node moves and "
+         "turns, and meet colliders on their way. Their velocities are those within the node. All "
+         "else acts in the world."),
+     .special_word = "none"},
     LIST(MOTION, "forces", forces, force, force_count, "[]",
          "Forces that accelerate the particles. Their accelerations are added up."),
     SWITCH_AT(MOTION, "collide", collide, collide_options, collide.enabled, "none",

@@ -156,6 +156,12 @@ unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter)
     return ((const struct kiln_emitter *)emitter)->attach.name ? BOTH : 0;
 }
 
+unsigned kiln_row_if_space_is_of_node(const void *scene, const void *system)
+{
+    (void)scene;
+    return ((const struct kiln_system *)system)->space.name ? BOTH : 0;
+}
+
 unsigned kiln_row_if_force_is_attached(const void *scene, const void *force)
 {
     (void)scene;
@@ -196,7 +202,8 @@ static bool is_carried(const struct kiln_scene *scene, uint32_t node,
 static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
                             const struct kiln_system *system)
 {
-    bool moves = is_carried(scene, node, &system->emit.attach);
+    bool moves =
+        is_carried(scene, node, &system->emit.attach) || is_carried(scene, node, &system->space);
     for (uint32_t i = 0; i < system->force_count; i++)
         moves = moves || is_carried(scene, node, &system->forces[i].attach) ||
                 is_carried(scene, node, &system->forces[i].region.attach);

@@ -57,6 +57,7 @@ unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit);
 /* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
  * kiln_force, kiln_force_region, kiln_object, kiln_light or kiln_camera. */
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
+unsigned kiln_row_if_space_is_of_node(const void *scene, const void *system);
 unsigned kiln_row_if_force_is_attached(const void *scene, const void *force);
 unsigned kiln_row_if_region_is_attached(const void *scene, const void *region);
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object);
@@ -93,6 +94,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_LOOKS_ARE_INHERITED   kiln_row_if_looks_are_inherited
 #define IF_NOT_CERTAIN           kiln_row_if_not_certain
 #define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
+#define IF_SPACE_IS_OF_NODE      kiln_row_if_space_is_of_node
 #define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached
 #define IF_REGION_IS_ATTACHED    kiln_row_if_region_is_attached
 #define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached

@@ -66,6 +66,7 @@ struct kiln_system {
     bool enabled;
     uint32_t seed; /* number of the system in shared/random.h: its place, if the scene has none */
     struct kiln_emitter emit;
+    struct kiln_attach space; /* the particles move with this node */
     struct kiln_force forces[KILN_MAX_FORCES];
     uint32_t force_count;
     struct kiln_collide collide;

@@ -323,27 +323,45 @@ FN S(emit_state) emit_at_rest(SIM_PARAM S(value_clocks) clocks, uint serial, flo
     return born;
 }
 
-/* Takes a birth from the frame of the emitter's node to the world, after the part u of the step.
- * inherit: the part of the frame's velocity at that place which the particle gets. */
-FN S(emit_state) emit_from_node(SIM_PARAM S(emit_state) own, float inherit, float u, float scale)
+/* Returns the place of a frame after the part u of the step. */
+FN float3 emit_frame_place(S(kiln_emit_frame) frame, float u)
 {
-    EXACT S(kiln_emit_frame) frame = STEP(emit.frame);
     EXACT float3 start = FLOAT3(frame.start.x, frame.start.y, frame.start.z);
     EXACT float3 linear = FLOAT3(frame.linear.x, frame.linear.y, frame.linear.z);
     EXACT float3 square = FLOAT3(frame.square.x, frame.square.y, frame.square.z);
     EXACT float3 cube = FLOAT3(frame.cube.x, frame.cube.y, frame.cube.z);
     EXACT float3 inner = float3_add_scaled(square, cube, u);
     EXACT float3 middle = float3_add_scaled(linear, inner, u);
-    EXACT float3 origin = float3_add_scaled(start, middle, u);
+    EXACT float3 place = float3_add_scaled(start, middle, u);
+    return place;
+}
+
+/* Returns the rotation of a frame in the part u of the step: a unit quaternion. */
+FN float4 emit_frame_turn(S(kiln_emit_frame) frame, float u)
+{
+    EXACT S(exact_angle) half_turn = exact_sincos(0.5f * (u * frame.spin.w));
+    EXACT float3 axis = FLOAT3(frame.spin.x, frame.spin.y, frame.spin.z);
+    EXACT float3 sines = float3_scale(axis, half_turn.sine);
+    EXACT float4 turn = FLOAT4(sines.x, sines.y, sines.z, half_turn.cosine);
+    return turn;
+}
+
+/* Takes a birth from the frame of the emitter's node to the world, after the part u of the step.
+ * inherit: the part of the frame's velocity at that place which the particle gets. */
+FN S(emit_state) emit_from_node(SIM_PARAM S(emit_state) own, float inherit, float u, float scale)
+{
+    EXACT S(kiln_emit_frame) frame = STEP(emit.frame);
+    EXACT float3 linear = FLOAT3(frame.linear.x, frame.linear.y, frame.linear.z);
+    EXACT float3 square = FLOAT3(frame.square.x, frame.square.y, frame.square.z);
+    EXACT float3 cube = FLOAT3(frame.cube.x, frame.cube.y, frame.cube.z);
+    EXACT float3 origin = emit_frame_place(frame, u);
     EXACT float3 cubes = float3_scale(cube, 3.0f);
     EXACT float3 squares = float3_add(square, square);
     EXACT float3 rates = float3_add_scaled(squares, cubes, u);
     EXACT float3 moved = float3_add_scaled(linear, rates, u);
 
-    EXACT S(exact_angle) half_turn = exact_sincos(0.5f * (u * frame.spin.w));
     EXACT float3 axis = FLOAT3(frame.spin.x, frame.spin.y, frame.spin.z);
-    EXACT float3 sines = float3_scale(axis, half_turn.sine);
-    EXACT float4 turn = FLOAT4(sines.x, sines.y, sines.z, half_turn.cosine);
+    EXACT float4 turn = emit_frame_turn(frame, u);
     EXACT float3 at_start = float3_turn(frame.pose, own.position);
     EXACT float3 outwards = float3_turn(turn, at_start);
     EXACT float3 offset = float3_scale(outwards, scale);

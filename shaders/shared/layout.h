@@ -47,7 +47,9 @@ struct kiln_derived_params {
 #define EMIT_POSED     10u /* triangles of a mesh with an animation */
 #define EMIT_COLUMNS   11u /* the inside of a mesh */
 
-/* The bits of USES_EMITTERS for emitters whose bursts are in order, and that lie in nodes. */
+/* The bits of USES_EMITTERS for particles that move with nodes, and for emitters whose bursts are in
+ * order, and that lie in nodes. */
+#define EMIT_CARRIED  29u
 #define EMIT_ORDERED  30u
 #define EMIT_ATTACHED 31u
 
@@ -65,6 +67,14 @@ struct kiln_emit_frame {
     float4 cube;   /* m: factor of u^3 */
     float4 pose;   /* from the frame to the world at the start: a unit quaternion */
     float4 spin;   /* unit axis; w: the angle by which the step turns the frame, rad */
+};
+
+/* How a node carries the particles of a system in a step: see carry.h. */
+struct kiln_carry {
+    S(kiln_emit_frame) frame;
+    float4 end;   /* m: place of the frame at the end; w: 1: it jumps there */
+    float4 whole; /* how it turns in the whole step, with a jump: a unit quaternion */
+    float4 jump;  /* how a jump turns it at the end of the step: a unit quaternion */
 };
 
 struct kiln_emit_params {
@@ -231,6 +241,9 @@ struct kiln_step_params {
     S(kiln_birth_group) groups[KILN_MAX_BIRTH_GROUPS];
     S(kiln_force_params) forces[KILN_MAX_FORCES];
     S(kiln_family_params) family;
+    uint carried; /* 1: particles of the system move with a node */
+    uint unused0, unused1, unused2;
+    S(kiln_carry) carry;
 };
 
 #define COLLIDER_BOX      0u

@@ -1,6 +1,7 @@
 /* Checks that each technique of the stage `simulate` computes the same bits as `cpu` where emitters
- * and colliders lie in nodes. If this fails, GLSL takes births from the frame of a node in another
- * way than C (shaders/shared/emit.h). */
+ * and colliders lie in nodes, and where particles move with nodes. If this fails, GLSL takes births
+ * from the frame of a node in another way than C (shaders/shared/emit.h), or carries particles in
+ * another way (carry.h). */
 #include <math.h>
 #include <string.h>
 
@@ -98,6 +99,46 @@ static void attached_forces_agree(void **state)
     simulation_agree(*state, FORCES, "simulation.integration=rk4", 25);
     simulation_agree(*state, PLAIN, NULL, 30);
 }
+/* Systems that move with nodes: with collisions, children, other particles, spins and a jump. */
+static const char SPACES[] =
+    "kiln: 1\n"
+    "seed: 7\n"
+    "output: {frames: 60}\n"
+    "nodes:\n"
+    "  ship: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [60 deg, 500 deg, 0]}},\n"
+    "         position: {keys: {0 s: [0, 1, 0], 1 s: [3, 1.2, 1]}}}\n"
+    "  jump: {position: {keys: {0 s: [0, 1, 0], 0.3 s: [2, 1, 0], 0.6 s: [0, 1, 2]}, ease: step},\n"
+    "         rotation: {keys: {0 s: [0, 0, 0], 0.3 s: [0, 90 deg, 0]}, ease: step}}\n"
+    "backdrop:\n"
+    "  objects:\n"
+    "    - box: {center: [2, 0.5, 1], size: [1, 1, 1], rotation: [0, 30 deg, 0]}\n"
+    "    - sphere: {attach: ship, center: [-0.5, 0, 0.5], radius: 0.3}\n"
+    "systems:\n"
+    "  a:\n"
+    "    space: ship\n"
+    "    emit: {rate: 1500, attach: ship, from: {box: {size: [2, 2, 2], angle: 180 deg}}}\n"
+    "    forces: [{gravity: {}}, {drag: 1}]\n"
+    "    collide: {restitution: 0.6, friction: 0.2, randomness: 0.1}\n"
+    "  sparks:\n"
+    "    emit: {parent: {system: a, on: {trail: {rate: 4}}}, life: 0.3 s}\n"
+    "    space: jump\n"
+    "  hits:\n"
+    "    emit: {parent: {system: a, on: {bounce: 2}}, life: 0.3 s}\n"
+    "  clamped:\n"
+    "    space: ship\n"
+    "    emit: {rate: 400, attach: jump}\n"
+    "    collide: {mode: clamp}\n"
+    "  stopping:\n"
+    "    space: ship\n"
+    "    emit: {rate: 400, attach: ship}\n"
+    "    forces: [gravity: {}]\n"
+    "    collide: {then: stop, chance: 0.5}\n"
+    "  balls:\n"
+    "    space: ship\n"
+    "    emit: {rate: 200, attach: ship, from: {box: {size: [1, 1, 1]}}}\n"
+    "    forces: [gravity: {}]\n"
+    "    interact: [{collide: {radius: 0.05 m, turning: [1 rad/s, 5 rad/s]}}]\n"
+    "    collide: {friction: 0.4}\n";
 
 static const struct {
     enum kiln_simulate_technique technique;
@@ -134,6 +175,18 @@ static void attached_emitters_agree(void **state)
         simulation_end(&cpu);
     }
     kiln_scene_destroy(&scene);
+}
+
+static void spaces_agree(void **state)
+{
+    simulation_agree(*state, SPACES, NULL, 50);
+}
+
+static void spaces_agree_along_curves(void **state)
+{
+    simulation_agree(*state, SPACES, "simulation.integration=rk4", 40);
+    if (test_is_full())
+        simulation_agree(*state, SPACES, "simulation.integration=position_first", 40);
 }
 
 /* A circle of 1 m, once around in a second. */
@@ -174,6 +227,8 @@ int main(int argc, char **argv)
     static const struct CMUnitTest tests[] = {
         test_on_device(attached_emitters_agree),
         test_on_device(attached_forces_agree),
+        test_on_device(spaces_agree),
+        test_on_device(spaces_agree_along_curves),
         test_on_device(births_lie_on_a_circle),
     };
     struct test_list list = {.count = 0};

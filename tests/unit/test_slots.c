@@ -341,6 +341,39 @@ static void attached(void **state)
     }
 }
 
+/* Lets most systems move with a node that flies and turns. */
+static void carry_systems(struct scene_fixture *f)
+{
+    struct kiln_scene_node *node = &f->scene.nodes[f->scene.node_count++];
+    *node = (struct kiln_scene_node){.name = "ship", .scale = fixture_constant(1.0f)};
+    node->position.value.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -1.0f, 2.0f, 3.0f);
+    node->rotation.y = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 4.0f, 20.0f);
+    node->rotation.z = fixture_ramp(f, KILN_CLOCK_TIME, 0.5f, 0.0f, 4.0f, 6.0f);
+    for (uint32_t i = 0; i < f->scene.system_count; i++) {
+        if (i % 4 != 3)
+            f->scene.systems[i].space = (struct kiln_attach){.name = "ship"};
+    }
+}
+
+/* Systems that move with a node, with each integrator and with clamping. */
+static void carried_by_a_node(void **state)
+{
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        fixture_zoo(&fixture, (enum kiln_integration)order, 0);
+        carry_systems(&fixture);
+        fixture_finish(&fixture, STEPS);
+        fixture_add_oriented(&fixture);
+        run_levels();
+        fixture.scene.systems[0].collide.mode = KILN_COLLIDE_CLAMP;
+        run_levels();
+    }
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    carry_systems(&fixture);
+    fixture_finish(&fixture, STEPS);
+    run_levels();
+}
+
 /* Births, deaths and bounces of parents, with each integrator. */
 static void families(void **state)
 {
@@ -393,6 +426,7 @@ int main(void)
         cmocka_unit_test(clamped_among_turning_colliders),
         cmocka_unit_test(whirls),
         cmocka_unit_test(attached),
+        cmocka_unit_test(carried_by_a_node),
         cmocka_unit_test(families),
         cmocka_unit_test(pushed_families),
         cmocka_unit_test(each_force_alone),

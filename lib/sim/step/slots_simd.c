@@ -57,6 +57,11 @@ static inline void start_moving(const struct kiln_sim *sim, struct kiln_block *b
 {
     for (uint32_t i = 0; i < KILN_LANES; i++)
         kiln_set3(&b->start, i, particle_velocity(record_at(b, i)));
+    if (sim->step->carried) {
+        const float4 turn = sim->step->carry.whole;
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(&b->start, i, float3_turn(turn, kiln_get3(&b->start, i)));
+    }
     if (!sim->step->pushed)
         return;
     memset(b->radius, 0, sizeof b->radius);
@@ -74,6 +79,19 @@ static inline void push_on(const struct kiln_sim *sim, struct kiln_block *b, uin
     for (uint32_t i = 0; i < slots_left(sim, first_slot); i++)
         kiln_set3(&b->position, i,
                   push_farther(push_of(sim, first_slot + i), kiln_get3(&b->position, i)));
+}
+
+/* Moves all lanes on as the system's node carries them in the whole step. */
+static inline void carry_on_lanes(const struct kiln_sim *sim, struct kiln_block *b)
+{
+    if (!sim->step->carried)
+        return;
+    const struct kiln_carry carry = sim->step->carry;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float3 at = particle_position(record_at(b, i));
+        const float3 way = float3_sub(carry_whole(carry, at), at);
+        kiln_set3(&b->position, i, float3_add(kiln_get3(&b->position, i), way));
+    }
 }
 
 /* Integrates all lanes over the whole step, as integrate does. */
@@ -372,6 +390,7 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     else
         fly(sim, b);
     push_on(sim, b, first_slot);
+    carry_on_lanes(sim, b);
     stay_at_rest(sim, b);
     find_lost(sim, b);
     find_alone(sim, b);

@@ -85,7 +85,8 @@ static void add_system(struct uses *uses, const struct kiln_scene *scene,
     add_births(uses, scene->keys, step);
     add_impacts(uses, scene->keys, &system->collide);
     uses->emitters |= 1u << step->emit.shape | bit(EMIT_ATTACHED, step->emit.attached != 0) |
-                      bit(EMIT_ORDERED, step->emit.order != ORDER_RANDOM);
+                      bit(EMIT_ORDERED, step->emit.order != ORDER_RANDOM) |
+                      bit(EMIT_CARRIED, step->carried != 0);
     uses->births |= 1u << step->family.born_of;
     uses->thens |= 1u << step->family.then;
     if (kiln_sim_colliders_used(scene) != 0)

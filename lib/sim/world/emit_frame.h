@@ -1,4 +1,5 @@
-/* Declares the frames of nodes and meshes during a step, from which particles are born. */
+/* Declares the frames of nodes and meshes during a step: particles are born in them, or move with
+ * them. */
 #ifndef KILN_SIM_WORLD_EMIT_FRAME_H
 #define KILN_SIM_WORLD_EMIT_FRAME_H
 
@@ -12,5 +13,9 @@
  * step's end. */
 struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene,
                                        const struct kiln_emitter *emit, uint32_t step);
+
+/* Returns how a node carries particles in a step, from 1. At the end of the step, they are where
+ * the node is, also if it jumps. */
+struct kiln_carry kiln_carry_frame(const struct kiln_scene *scene, uint32_t node, uint32_t step);
 
 #endif

@@ -31,7 +31,8 @@ static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
 static_assert(offsetof(struct kiln_step_params, groups) == 1136, "std140");
 static_assert(offsetof(struct kiln_step_params, forces) == 2192, "std140");
 static_assert(offsetof(struct kiln_step_params, family) == 11408, "std140");
-static_assert(sizeof(struct kiln_step_params) == 11504, "std140");
+static_assert(offsetof(struct kiln_step_params, carry) == 11504, "std140");
+static_assert(sizeof(struct kiln_step_params) == 11648, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -194,6 +195,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .bounds_min = to_float4(system->bounds.min),
         .bounds_max = to_float4(system->bounds.max),
         .rubs = rubs(scene, &system->collide),
+        .carried = system->space.name != NULL,
     };
     fill_emitter(&params->emit, &system->emit);
     for (uint32_t i = 0; i < system->force_count; i++)
@@ -399,6 +401,8 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
         find_spin(p, scene, i, p->time_s);
         if (p->emit.attached)
             p->emit.frame = kiln_emit_frame(scene, &scene->systems[i].emit, step);
+        if (p->carried)
+            p->carry = kiln_carry_frame(scene, scene->systems[i].space.node, step);
     }
     return true;
 }
