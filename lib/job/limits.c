@@ -183,6 +183,7 @@ static const struct size {
     {"includes", KILN_INCLUDE_MAX_FILES, .help = "Included files, through at most 8 files"},
     {"copies", KILN_NODE_MAX_COPIES, .help = "Nodes that aliases, uses and parameters copy"},
     {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
+    {"baked", KILN_MAX_BAKED, .help = "Baked winds, of up to 12 forces each"},
     {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };
 
