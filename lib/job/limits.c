@@ -188,6 +188,7 @@ static const struct size {
     {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
     {"sources", KILN_MAX_SOURCE_CELLS,
      .help = "Triangles, vertices and pixels that particles are born on"},
+    {"baked", KILN_MAX_BAKED, .help = "Baked winds, of up to 12 forces each"},
     {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };
 

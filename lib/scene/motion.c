@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
+#include "scene/baked.h"
 #include "scene/source.h"
 
 /* Adds the hashes of the files whose nodes move what belongs to a part. */
@@ -34,9 +35,10 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
-        for (uint32_t k = 0; k < system->force_count; k++) {
-            if (system->forces[k].kind == KILN_FORCE_FIELD &&
-                !kiln_asset_add_hash(scene, system->forces[k].file, text, error))
+        const struct kiln_force *force;
+        for (uint32_t k = 0; (force = kiln_system_force(system, k)) != NULL; k++) {
+            if (force->kind == KILN_FORCE_FIELD &&
+                !kiln_asset_add_hash(scene, force->file, text, error))
                 return false;
         }
     }

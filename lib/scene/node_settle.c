@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/baked.h"
 #include "scene/node_rig.h"
 #include "scene/options.h"
 
@@ -138,21 +139,33 @@ static bool find_backdrop(struct kiln_reader *reader, const struct kiln_node *ro
     return ok;
 }
 
+/* Finds the nodes of a force and of its region. */
+static bool find_force(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                       struct kiln_force *force)
+{
+    char key[160];
+    snprintf(key, sizeof key, "%s.attach", path);
+    bool ok = find_node(reader, root, key, &force->attach);
+    snprintf(key, sizeof key, "%s.region.attach", path);
+    return ok && find_node(reader, root, key, &force->region.attach);
+}
+
 static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root,
                         struct kiln_system *system)
 {
+    uint32_t inner = system->force_count;
     bool ok = true;
+    char path[128];
     for (uint32_t i = 0; ok && i < system->force_count; i++) {
         struct kiln_force *force = &system->forces[i];
-        const char *kind = kiln_force_name(force);
-        char path[96];
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.attach", system->name, i, kind);
-        ok = find_node(reader, root, path, &force->attach);
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region.attach", system->name, i, kind);
-        ok = ok && find_node(reader, root, path, &force->region.attach);
+        kiln_system_force_path(system, i, path, sizeof path);
+        ok = find_force(reader, root, path, force);
+        for (uint32_t k = 0; ok && force->kind == KILN_FORCE_BAKED && k < force->of.count; k++) {
+            kiln_system_force_path(system, inner++, path, sizeof path);
+            ok = find_force(reader, root, path, &force->of.at[k]);
+        }
     }
     for (uint32_t i = 0; ok && i < system->demitter_count; i++) {
-        char path[96];
         snprintf(path, sizeof path, "systems.%s.demitters.%u.attach", system->name, i);
         ok = find_node(reader, root, path, &system->demitters[i].attach);
     }

@@ -15,6 +15,7 @@ extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option kiln_options_node[];
 extern const struct kiln_option_kind kiln_force_kinds[];
 extern const struct kiln_option_kind kiln_interaction_kinds[];
+extern const struct kiln_option *const kiln_baked_force; /* an item of the forces of a baked wind */
 
 /* The structs that these tables fill (option/rows.h). */
 typedef struct kiln_scene kiln_options_root_fills;
@@ -44,6 +45,7 @@ extern const struct kiln_option_type kiln_type_attach;       /* a node's name, o
 extern const struct kiln_option_type kiln_type_place;        /* a vector, or {path: {...}} */
 extern const struct kiln_option_type kiln_type_points;       /* [[0, 0, 0], [1, 0, 0]] */
 extern const struct kiln_option_type kiln_type_demitter;     /* {min, max, attach} */
+extern const struct kiln_option_type kiln_type_of;           /* forces of a baked wind */
 extern const struct kiln_option_type kiln_type_duration;     /* 5 s, or none */
 
 /* The C types of their fields (option/option.h). */
@@ -62,6 +64,7 @@ typedef struct kiln_attach kiln_fills_attach;
 typedef struct kiln_node_position kiln_fills_place;
 typedef struct kiln_path_points kiln_fills_points;
 typedef struct kiln_demitter kiln_fills_demitter;
+typedef struct kiln_baked_forces kiln_fills_of;
 typedef struct kiln_burst kiln_fills_bursts[];
 typedef uint32_t kiln_fills_counts[2];
 typedef struct kiln_scene kiln_fills_duration; /* its frames */

@@ -11,6 +11,7 @@
  * tests/unit/test_motion.c changes every row and checks this. */
 #include "scene/parts.h"
 
+#include "scene/baked.h"
 #include "scene/source.h"
 
 /* A row that decides the motion also decides the view, so no row belongs to the motion alone. */
@@ -204,9 +205,10 @@ static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
 {
     bool moves =
         is_carried(scene, node, &system->emit.attach) || is_carried(scene, node, &system->space);
-    for (uint32_t i = 0; i < system->force_count; i++)
-        moves = moves || is_carried(scene, node, &system->forces[i].attach) ||
-                is_carried(scene, node, &system->forces[i].region.attach);
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++)
+        moves = moves || is_carried(scene, node, &force->attach) ||
+                is_carried(scene, node, &force->region.attach);
     for (uint32_t i = 0; i < system->demitter_count; i++)
         moves = moves || is_carried(scene, node, &system->demitters[i].attach);
     return moves;

@@ -10,6 +10,7 @@
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
 #include "scene/asset_path.h"
+#include "scene/baked.h"
 #include "scene/emit_way.h"
 #include "scene/family.h"
 #include "scene/instant.h"
@@ -298,13 +299,13 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
 static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
                           const struct kiln_system *system)
 {
-    char path[128];
-    for (uint32_t i = 0; i < system->force_count; i++) {
-        const struct kiln_force_region *region = &system->forces[i].region;
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region", system->name, i,
-                 kiln_force_name(&system->forces[i]));
-        if (region->enabled && region->box == region->sphere)
-            return kiln_reader_error_at(reader, root, path, "must have one of `box` and `sphere`");
+    char path[128], key[160];
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++) {
+        kiln_system_force_path(system, i, path, sizeof path);
+        snprintf(key, sizeof key, "%s.region", path);
+        if (force->region.enabled && force->region.box == force->region.sphere)
+            return kiln_reader_error_at(reader, root, key, "must have one of `box` and `sphere`");
     }
     return true;
 }

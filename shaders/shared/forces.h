@@ -23,8 +23,11 @@
 #if defined(GL_core_profile) && !defined(GRIDS)
 #define FORCES_OF_GRIDS(ROW)
 #else
+#include "shared/force_baked.h"
 #include "shared/force_field.h"
-#define FORCES_OF_GRIDS(ROW) ROW(FORCE_FIELD, force_field)
+#define FORCES_OF_GRIDS(ROW)                                                                       \
+    ROW(FORCE_FIELD, force_field)                                                                  \
+    ROW(FORCE_BAKED, force_baked)
 #endif
 
 #ifdef FORCES_ALL

@@ -47,8 +47,8 @@ struct kiln_derived_params {
 #define EMIT_POSED     10u /* triangles of a mesh with an animation */
 #define EMIT_COLUMNS   11u /* the inside of a mesh */
 
-/* The bits of USES_EMITTERS for particles that move with nodes, and for emitters whose bursts are in
- * order, and that lie in nodes. */
+/* The bits of USES_EMITTERS for particles that move with nodes, and for emitters whose bursts are
+ * in order, and that lie in nodes. */
 #define EMIT_CARRIED  29u
 #define EMIT_ORDERED  30u
 #define EMIT_ATTACHED 31u
@@ -111,6 +111,7 @@ struct kiln_still_frame {
 #define FORCE_FIELD   5u
 #define FORCE_ATTRACT 6u
 #define FORCE_VORTEX  7u
+#define FORCE_BAKED   8u
 
 /* How an attraction falls off with the distance. */
 #define FALLOFF_INVERSE_SQUARE 0u
@@ -132,15 +133,16 @@ struct kiln_still_frame {
 struct kiln_force_params {
     uint kind;
     uint octaves;
-    uint grid;               /* number of the grid of a field */
+    uint grid;               /* number of the grid of a field or of a baked wind */
     uint profile;            /* a word of the kind: FALLOFF_* or VORTEX_* */
     S(kiln_value3) vector;   /* an acceleration, a velocity of the air, or a point */
     S(kiln_value3) second;   /* curl: drift; vortex: axis */
     S(kiln_value) strength;  /* limit and vortex: speed */
     S(kiln_value) pull;      /* 1/s */
     S(kiln_value) quadratic; /* 1/m */
-    S(kiln_value) scale;     /* curl: size of the eddies; attract, vortex: radius; m */
-    float inward, lift;      /* m/s */
+    /* curl: size of the eddies; attract, vortex: radius; m; field, baked: 0, or 1 in a node */
+    S(kiln_value) scale;
+    float inward, lift; /* m/s */
     float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
     uint region; /* REGION_* */
     float4 region_center;      /* m; w: over how many metres inside of the border the force fades */
@@ -306,7 +308,8 @@ struct kiln_pose {
 struct kiln_grid {
     float4 origin;    /* m: place of the first sample */
     float4 per_metre; /* samples a metre, along each axis */
-    float4 low, high; /* m: depth maps only: corners of the box around all maps */
+    float4 low, high; /* m: depth maps: corners of the box around all maps; baked winds: high is
+                       * from one sample to the next along each axis */
     uint4 size;       /* samples along each axis, at least 2; w: index of the first word */
 };
 

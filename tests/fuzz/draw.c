@@ -249,6 +249,10 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "\"tests/support/whirl.grid\"");
     else if (type == &kiln_type_name)
         ADD_ONE(c, "a", "b");
+    else if (type == &kiln_type_of)
+        ADD_ONE(c, "[curl: 1]", "[vortex: {lift: 10000}, wind: {mode: add}, drag: 1000]",
+                "[attract: {attach: a, strength: -100000}]",
+                "[wind: {field: grid, file: \"tests/support/whirl.grid\"}]");
     else if (type == &kiln_type_counts)
         ADD_ONE(c, "1", "6", "[1, 6]");
     else if (type == &kiln_type_attach && strcmp(row->name, "parent") == 0)

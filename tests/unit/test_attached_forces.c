@@ -1,5 +1,7 @@
 /* Forces, their regions and demitters that lie in nodes act as those that are written in the world
  * do. If this fails, a force that is attached to a node acts elsewhere, or in another direction. */
+#include <complex.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -218,6 +220,88 @@ static void grids_grow_with_their_node(void **state)
     assert_true(farthest("nodes: {a: {scale: 3}}\n", attached, plain) > 0.01);
 }
 
+/* ---- closed forms -----------------------------------------------------------------------------
+ */
+
+/* Where a particle is and how fast it is, x + i z. A turn to the left around y is a factor of
+ * e^(-i angle). */
+struct seen {
+    double complex at, velocity;
+};
+
+/* Returns what a particle, born at rest at (1, 0, 0), has become after a second. */
+static struct seen after_a_second(const char *nodes, const char *force)
+{
+    char text[1024];
+    struct simulation run;
+    snprintf(text, sizeof text,
+             "kiln: 1\noutput: {frames: 120, fps: 120}\nsimulation: {integration: rk4, rate: 120}\n"
+             "nodes: {n: {%s}}\nsystems: {a: {emit: {bursts: {0 s: 1}, life: 9 s, speed: 0, "
+             "from: {point: {origin: [1, 0, 0]}}}, forces: [%s]}}\n",
+             nodes, force);
+    struct kiln_scene *scene = load(text);
+    simulation_start(&run, scene, NULL, 1);
+    simulation_run(&run, 120);
+    const float3 at = particle_position(simulation_records(&run)[0]);
+    const float3 v = particle_velocity(simulation_records(&run)[0]);
+    simulation_end(&run);
+    kiln_scene_destroy(&scene);
+    assert_true(at.y == 0.0f && v.y == 0.0f);
+    return (struct seen){.at = (double)at.x + I * (double)at.z,
+                         .velocity = (double)v.x + I * (double)v.z};
+}
+
+static void expect_near(const char *force, struct seen found, struct seen expected)
+{
+    const double away = cabs(found.at - expected.at),
+                 faster = cabs(found.velocity - expected.velocity);
+    if (!(away < 5e-4 && faster < 2e-3))
+        fail_msg("%s: %g m and %g m/s away", force, away, faster);
+}
+
+/* A wind of V in a node that turns by w a second: v' = p (V e^(-i w t) - v). */
+static void a_wind_turns_with_its_node(void **state)
+{
+    (void)state;
+    static const char nodes[] = "rotation: {keys: {0 s: [0, 0, 0], 1 s: [0, 180 deg, 0]}}";
+    static const char *const winds[] = {
+        "wind: {attach: n, velocity: [2, 0, 0], pull: 3}",
+        "wind: {baked: {attach: n, box: {size: [6, 6, 6]}, cells: 3, of: [wind: {attach: n, "
+        "velocity: [2, 0, 0], pull: 3}]}}",
+    };
+    const double p = 3, w = acos(-1.0);
+    const double complex whole = p * 2 / (p - I * w), turned = cexp(-I * w);
+    const struct seen expected = {
+        .at = 1 + whole * ((turned - 1) / (-I * w) + (exp(-p) - 1) / p),
+        .velocity = whole * (turned - exp(-p)),
+    };
+    for (size_t i = 0; i < sizeof winds / sizeof *winds; i++)
+        expect_near(winds[i], after_a_second(nodes, winds[i]), expected);
+}
+
+/* Air that turns as a solid body does around a node that flies by u m/s along x. The axis is y, so
+ * z'' = p (-i w (z - u t) - z'). */
+static void a_whirl_flies_with_its_node(void **state)
+{
+    (void)state;
+    static const char nodes[] = "position: {keys: {0 s: [0, 0, 0], 1 s: [1.5, 0, 0]}}";
+    static const char *const whirls[] = {
+        "vortex: {attach: n, speed: 30, radius: 10 m, pull: 5}",
+        "wind: {baked: {attach: n, box: {size: [6, 2, 6]}, cells: 6, of: [vortex: {attach: n, "
+        "speed: 30, radius: 10 m, pull: 5}]}}",
+    };
+    const double p = 5, w = 3, u = 1.5;
+    const double complex root = csqrt(p * p - 4 * I * p * w);
+    const double complex one = (-p + root) / 2, two = (-p - root) / 2, beside = I * u / w;
+    const double complex first = (-u - two * (1 - beside)) / root, second = 1 - beside - first;
+    const struct seen expected = {
+        .at = first * cexp(one) + second * cexp(two) + beside + u,
+        .velocity = one * first * cexp(one) + two * second * cexp(two) + u,
+    };
+    for (size_t i = 0; i < sizeof whirls / sizeof *whirls; i++)
+        expect_near(whirls[i], after_a_second(nodes, whirls[i]), expected);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +311,8 @@ int main(void)
         cmocka_unit_test(regions_have_nodes_of_their_own),
         cmocka_unit_test(eddies_move_and_grow_with_their_node),
         cmocka_unit_test(grids_grow_with_their_node),
+        cmocka_unit_test(a_wind_turns_with_its_node),
+        cmocka_unit_test(a_whirl_flies_with_its_node),
     };
     return cmocka_run_group_tests_name("attached_forces", tests, NULL, NULL);
 }

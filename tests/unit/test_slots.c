@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "sim/step/bakes.h"
 #include "sim/step/slots.h"
 #include "sim/world/params.h"
 #include "support/balls.h"
@@ -167,6 +168,8 @@ static void run_level(enum kiln_simd simd)
     assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, run.threads, &error));
     const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
     kiln_sim_params_init(params, &fixture.scene, &grids);
+    struct kiln_bakes bakes;
+    assert_true(kiln_bakes_init(&bakes, NULL, &fixture.scene, &grids, &error));
     float4 *pushes = make_pushes(params->push_count);
     struct spins spins = make_spins(params->spin_count);
     struct traces traces = {.count = params->trace_count};
@@ -178,11 +181,13 @@ static void run_level(enum kiln_simd simd)
         assert_true(kiln_volumes_step(&grids.volumes, &fixture.scene, step, run.threads, &error));
         const float4 *planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
+        assert_true(kiln_bakes_step(&bakes, params, run.threads, step, &error));
         uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes,
                                    planes, records, copy, &spins, &traces);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
+    kiln_bakes_finish(&bakes);
     kiln_sim_grids_finish(&grids);
     free(pushes);
     free(spins.words);

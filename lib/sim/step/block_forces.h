@@ -1,5 +1,6 @@
-/* Sums up the forces on a block of places in vectors, for slots_simd.c. The functions compute the
- * bits of forces_sum (shaders/shared/forces.h). */
+/* Sums up the forces on a block of places in vectors: on particles (slots_simd.c), and at the
+ * points of a baked wind (bake_simd.c). The functions compute the bits of forces_sum
+ * (shaders/shared/forces.h). */
 #ifndef KILN_SIM_STEP_BLOCK_FORCES_H
 #define KILN_SIM_STEP_BLOCK_FORCES_H
 
@@ -73,6 +74,58 @@ static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b, ui
         add_effect(b, i, force_air(input_at(sim, b, i, number), kiln_get3(&b->curl, i)));
 }
 
+/* Two samples that lie side by side along x. */
+typedef float kiln_sample_pair __attribute__((vector_size(32)));
+typedef float kiln_sample __attribute__((vector_size(16)));
+
+/* Loads samples `first` and `first` + 1. */
+static inline void load_pair(kiln_sample_pair *pair, const float4 *words, uint32_t first)
+{
+    memcpy(pair, words + first, sizeof *pair);
+}
+
+/* Looks up the grid of a baked wind as force_baked does, for both neighbours along x at once. */
+static inline float4 look_up(const float4 *words, const struct kiln_grid *grid, uint32_t first,
+                             float part_x, float part_y, float part_z)
+{
+    const uint32_t row = grid->size.x, layer = grid->size.x * grid->size.y;
+    kiln_sample_pair low, above_low, high, above_high;
+    load_pair(&low, words, first);
+    load_pair(&above_low, words, first + row);
+    load_pair(&high, words, first + layer);
+    load_pair(&above_high, words, first + layer + row);
+    const kiln_sample_pair before = low + (above_low - low) * part_y,
+                           after = high + (above_high - high) * part_y,
+                           column = before + (after - before) * part_z;
+    kiln_sample left, right;
+    memcpy(&left, &column, sizeof left);
+    memcpy(&right, (const char *)&column + sizeof left, sizeof right);
+    const kiln_sample y = left + (right - left) * part_x;
+    return FLOAT4(y[0], y[1], y[2], y[3]);
+}
+
+/* Computes force_baked of all lanes: first where they are in the grid, then what it holds there. */
+static inline void add_baked(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
+{
+    const struct kiln_grid grid = sim->surroundings->grids[sim->step->forces[number].grid];
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float3 at = force_field_place(input_at(sim, b, i, number));
+        const struct grid_place place = grid_find(grid, at);
+        b->sample[i] = grid_index(grid, place.x.first, place.y.first, place.z.first);
+        kiln_set3(&b->place, i, (float3){place.x.part, place.y.part, place.z.part});
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float4 sampled = look_up(sim->grid_words, &grid, b->sample[i], b->place.x[i],
+                                       b->place.y[i], b->place.z[i]);
+        kiln_set3(&b->curl, i, (float3){sampled.x, sampled.y, sampled.z});
+        b->braking[i] = sampled.w;
+    }
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float3 sampled = kiln_get3(&b->curl, i);
+        add_effect(b, i, baked_effect(FLOAT4(sampled.x, sampled.y, sampled.z, b->braking[i])));
+    }
+}
+
 /* Adds the effect of one force to each lane. */
 #define ADD_EFFECT(effect)                                                                         \
     for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
@@ -114,6 +167,9 @@ static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, u
         break;
     case FORCE_FIELD:
         ADD_EFFECT(force_field(sim, input_at(sim, b, i, number)));
+        break;
+    case FORCE_BAKED:
+        add_baked(sim, b, number);
         break;
 #define FORCES_ROW(id, function)                                                                   \
     case id:                                                                                       \

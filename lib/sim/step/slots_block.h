@@ -40,6 +40,7 @@ struct kiln_block {
     kiln_floats kept_pull, kept_quadratic;
     struct kiln_floats3 kept_at; /* places in the world, while a force in a node is evaluated */
     struct kiln_floats3 place, curl;
+    uint32_t sample[KILN_LANES]; /* index of the first sample around a place in a grid */
     struct stages_lanes stages;
     struct kiln_floats3 rate; /* spin of particles that collide as balls */
     kiln_floats pose[4];

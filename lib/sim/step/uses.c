@@ -116,3 +116,18 @@ void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene
                   kiln_sim_colliders_used(scene), uses.collide, uses.births, uses.thens,
                   uses.demitters, (uint)scene->integration);
 }
+
+void kiln_sim_add_bake_uses(struct kiln_text *defines, const struct kiln_scene *scene,
+                            const struct kiln_sim_grids *grids)
+{
+    struct uses uses = {.keys = 0};
+    for (uint32_t i = 0; i < grids->wind_count - grids->file_count; i++) {
+        const struct kiln_baked_forces *of = &grids->baked[i]->of;
+        for (uint32_t k = 0; k < of->count; k++)
+            add_force(&uses, scene->keys, &of->at[k]);
+    }
+    kiln_text_add(defines,
+                  "#define USES_KEYS 0u\n#define USES_CLOCKS 0u\n#define USES_FORCES %uu\n"
+                  "#define USES_INTEGRATION %uu\n",
+                  uses.forces, (uint)scene->integration);
+}

@@ -8,6 +8,13 @@
 
 #include "shared/exact.h"
 
+float kiln_sim_forces_s(const struct kiln_scene *scene, uint32_t step)
+{
+    const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
+    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    return staged ? 0.5f * (start_s + end_s) : start_s;
+}
+
 struct kiln_value kiln_sim_value_at(const struct kiln_sim_moment *m, struct kiln_value value)
 {
     if (kiln_value_uses(m->scene->keys, &value) & KILN_VALUE_OF_PARTICLES)
@@ -71,6 +78,11 @@ static void place_region(struct kiln_force_params *params, const struct kiln_sim
     fill_region(params, m, &force->region, attach->name ? params->region_frame.at.w : 1.0f);
 }
 
+static bool has_grid(const struct kiln_force *force)
+{
+    return force->kind == KILN_FORCE_FIELD || force->kind == KILN_FORCE_BAKED;
+}
+
 /* Lets a force lie in its node. Its place does not differ between particles, so it is constant in a
  * step. Other vectors are directions, speeds and accelerations. */
 static void attach_force(struct kiln_force_params *params, const struct kiln_sim_moment *m,
@@ -84,7 +96,7 @@ static void attach_force(struct kiln_force_params *params, const struct kiln_sim
         params->vector = (struct kiln_value3){
             .x = {.constant = place.x}, .y = {.constant = place.y}, .z = {.constant = place.z}};
     }
-    if (force->kind == KILN_FORCE_FIELD) /* kernels scale this to the scale of the node */
+    if (has_grid(force)) /* kernels scale this to the scale of the node */
         params->scale = (struct kiln_value){.constant = 1.0f};
 }
 
@@ -96,7 +108,6 @@ struct kiln_force_params kiln_sim_force_params(const struct kiln_sim_moment *m,
         .kind = (uint)force->kind,
         .octaves = force->octaves,
         .profile = (uint)force->profile,
-        .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
         .vector = vector_at(m, force->vector),
         .second = vector_at(m, force->second),
         .strength = kiln_sim_value_at(m, force->strength),
@@ -106,6 +117,11 @@ struct kiln_force_params kiln_sim_force_params(const struct kiln_sim_moment *m,
         .inward = kiln_scene_system_value(m->scene, m->system, &force->inward, m->time_s),
         .lift = kiln_scene_system_value(m->scene, m->system, &force->lift, m->time_s),
     };
+    if (has_grid(force)) {
+        params.scale = (struct kiln_value){.constant = 0.0f};
+        params.grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file)
+                                                      : kiln_sim_grids_find_baked(grids, force);
+    }
     if (force->mode == KILN_WIND_ADD) {
         params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
         params.pull = (struct kiln_value){.constant = 0.0f};

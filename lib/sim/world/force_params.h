@@ -13,6 +13,9 @@ struct kiln_sim_moment {
     float time_s;
 };
 
+/* Returns the clip time at which the host evaluates the forces of a step, from 1. */
+float kiln_sim_forces_s(const struct kiln_scene *scene, uint32_t step);
+
 /* Returns a constant for a value that is the same for all particles; another one stays as it is. */
 struct kiln_value kiln_sim_value_at(const struct kiln_sim_moment *moment, struct kiln_value value);
 

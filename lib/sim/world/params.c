@@ -180,6 +180,18 @@ bool kiln_sim_needs_all_forces(const struct kiln_scene *scene)
     return any;
 }
 
+bool kiln_sim_bakes_need_all_forces(const struct kiln_scene *scene,
+                                    const struct kiln_sim_grids *grids)
+{
+    bool any = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    for (uint32_t i = grids->file_count; i < grids->wind_count; i++) {
+        const struct kiln_baked_forces *of = &grids->baked[i - grids->file_count]->of;
+        for (uint32_t k = 0; k < of->count; k++)
+            any = any || is_of_all_forces(of->at[k].kind);
+    }
+    return any;
+}
+
 static void fill_system(struct kiln_step_params *params, const struct kiln_scene *scene,
                         uint32_t index)
 {
@@ -432,10 +444,8 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
 {
     if (!kiln_sim_params_births(params, scene, pool, step, error))
         return false;
-    float start_s = kiln_scene_time(scene, step - 1);
-    float end_s = kiln_scene_time(scene, step);
-    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
-    float forces_s = staged ? 0.5f * (start_s + end_s) : start_s;
+    const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
+    const float forces_s = kiln_sim_forces_s(scene, step);
     for (uint32_t i = 0; i < params->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         struct kiln_step_params *p = &params->systems[i];
