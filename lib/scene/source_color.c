@@ -231,8 +231,8 @@ bool kiln_source_make_texels(struct kiln_arena *arena, struct kiln_source *sourc
 
 void kiln_source_set_color(struct kiln_source *source, uint32_t number, uint32_t color)
 {
-    memcpy((char *)&source->texels[source->cells + number / 4] + 4 * (number % 4), &color,
-           sizeof color);
+    memcpy((char *)&source->texels[source->cells + number / 4] + sizeof color * (number % 4),
+           &color, sizeof color);
 }
 
 static void paint_triangles(const struct painter *p, struct kiln_source *source)
@@ -316,7 +316,8 @@ float3 kiln_source_color(const struct kiln_source *source, uint32_t stream)
     uint32_t number = cell.z, color;
     if (cell.w > 1)
         number += source_color_of(source_spot_on_triangle(stream), cell.w);
-    memcpy(&color, (const char *)&source->texels[source->cells + number / 4] + 4 * (number % 4),
+    memcpy(&color,
+           (const char *)&source->texels[source->cells + number / 4] + sizeof color * (number % 4),
            sizeof color);
     return FLOAT3(source_component(color, 0), source_component(color, 1),
                   source_component(color, 2));

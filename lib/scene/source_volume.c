@@ -69,7 +69,7 @@ static int side_of(const double a[3], const double b[3], double x, double z)
 static void find_lines(const struct lattice *at, const double v[3][3], uint32_t first[2],
                        uint32_t last[2])
 {
-    for (int k = 0; k < 2; k++) {
+    for (size_t k = 0; k < 2; k++) {
         const double low = fmin(v[0][2 * k], fmin(v[1][2 * k], v[2][2 * k]));
         const double high = fmax(v[0][2 * k], fmax(v[1][2 * k], v[2][2 * k]));
         const double end = at->columns[k] - 1;
@@ -145,7 +145,7 @@ static void find_lattice(const struct kiln_mesh *mesh, double (*vertices)[3], ui
                          struct lattice *at)
 {
     double high[2];
-    for (int k = 0; k < 2; k++) {
+    for (size_t k = 0; k < 2; k++) {
         at->low[k] = high[k] = vertices[0][2 * k];
         for (uint32_t i = 1; i < mesh->vertex_count; i++) {
             at->low[k] = fmin(at->low[k], vertices[i][2 * k]);

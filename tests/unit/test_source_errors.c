@@ -1,9 +1,11 @@
 /* Bad sources of particles, and the exact words that say where, what was found and what is
  * allowed. */
+#include <stdio.h>
 #include <unistd.h>
 
 #include "support/bad_scenes.h"
 #include "support/cmocka.h"
+#include "support/folders.h"
 
 #define SYSTEM(from) "kiln: 1\nsystems: {a: {emit: {from: {" from "}}}}\n"
 
@@ -101,6 +103,31 @@ static const struct bad colors[] = {
      ":2:70: systems.a.look.color: cannot be source, since the system paints with it"},
 };
 
+/* heap.obj: so many triangles above one another that cutting them would take gigabytes. */
+static const struct bad heaps[] = {
+    {SYSTEM("mesh: {file: heap.obj, on: volume}"),
+     ":2:42: systems.a.emit.from.mesh.file: too many triangles of the mesh lie above one another "
+     "for a volume"},
+};
+
+static void write_heap(void)
+{
+    FILE *out = fopen("heap.obj", "w");
+    assert_non_null(out);
+    for (int i = 0; i < 9000; i++) { /* a triangle and its back */
+        fprintf(out, "v 0 %d 0\nv 1 %d 0\nv 0 %d 1\n", i, i, i);
+        fprintf(out, "f -3 -2 -1\nf -1 -2 -3\n");
+    }
+    assert_int_equal(fclose(out), 0);
+}
+
+static void bad_heap(void **state)
+{
+    (void)state;
+    write_heap();
+    expect_all(heaps, 1);
+}
+
 BAD_TEST(meshes)
 BAD_TEST(solids)
 BAD_TEST(images)
@@ -112,8 +139,12 @@ int main(void)
     if (chdir(KILN_SOURCE_DIR "/tests") != 0)
         return 1;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_meshes), cmocka_unit_test(bad_solids), cmocka_unit_test(bad_images),
-        cmocka_unit_test(bad_paths),  cmocka_unit_test(bad_colors),
+        cmocka_unit_test(bad_meshes),
+        cmocka_unit_test(bad_solids),
+        cmocka_unit_test_setup_teardown(bad_heap, test_enter_folder, test_leave_folder),
+        cmocka_unit_test(bad_images),
+        cmocka_unit_test(bad_paths),
+        cmocka_unit_test(bad_colors),
     };
     return cmocka_run_group_tests_name("source_errors", tests, NULL, NULL);
 }

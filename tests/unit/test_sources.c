@@ -156,7 +156,6 @@ static void vertices_are_as_likely(void **state)
     struct kiln_scene *scene =
         bear(&run, "from: {mesh: {file: many.obj, on: vertices}}", BIRTHS, "");
     const struct kiln_particle *records = simulation_records(&run);
-    uint32_t twice = 0;
     memset(counts, 0, sizeof counts);
     for (uint32_t i = 0; i < BIRTHS; i++) {
         const float3 at = particle_position(records[i]);
@@ -165,8 +164,6 @@ static void vertices_are_as_likely(void **state)
     for (int i = 0; i < TRIANGLES; i++) {
         /* A triangle without an area has two vertices at one place, or one. */
         const bool flat = length_of(i) <= 0;
-        const uint32_t there = counts[3 * i] + counts[3 * i + 1] + counts[3 * i + 2];
-        twice += flat && there > 0;
         for (int k = 0; k < 3; k++) {
             expected[3 * i + k] = flat ? 0 : 1;
             counts[3 * i + k] = flat ? 0 : counts[3 * i + k];
