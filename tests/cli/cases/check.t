@@ -40,8 +40,8 @@ $ kiln check -q scenes/tiny.yaml --set systems.fire.emit.rate=nan
 
 Files of a scene are below its folder, or below the asset root.
 
-$ kiln check -q whole.yaml
-2|whole.yaml:103:14: systems.smoke.look.atlas: cannot open 'puff.png': No such file or directory; a path starts at the scene's folder, or at the asset root that is given instead
+$ line=$(grep -n -m 1 'puff.png' whole.yaml | cut -d: -f1); kiln check -q whole.yaml 2>why; code=$?; sed "s/:$line:/:LINE:/" why >&2; (exit $code)
+2|whole.yaml:LINE:14: systems.smoke.look.atlas: cannot open 'puff.png': No such file or directory; a path starts at the scene's folder, or at the asset root that is given instead
 = 3
 $ kiln check -q whole.yaml --asset-root nowhere
 2|asset root 'nowhere': No such file or directory
