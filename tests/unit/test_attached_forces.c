@@ -163,8 +163,7 @@ static void all_forces_turn_with_their_node(void **state)
         "forces: [curl: {@strength: 2, scale: {random: [0.3, 1]}}]",
         "forces: [attract: {@position: [0.5, 0, 0], strength: 3, radius: {life: [0.2, 1]}}]",
         "forces: [vortex: {@position: [0, 0, 0.5], axis: [1, 1, 0], inward: 1, lift: 2}]",
-        "forces: [gravity: {@region: {box: {center: [0.5, 0, 0], size: [1, 2, 3]},\n"
-        "    falloff: 0.5 m}}]",
+        "forces: [gravity: {@region: {box: {center: [0.5, 0, 0], size: [1, 2, 3]}, falloff: 0.5}}]",
         "forces: [drag: {@strength: 5, quadratic: 2, region: {sphere: {center: [0.5, 0, 0]}}}]",
         "demitters: [{@min: [-1, -1, 0.2], max: [2, 0.5, 2]}]",
         "forces: [wind: {@field: grid, file: tests/support/whirl.grid, pull: 4}]",

@@ -111,6 +111,7 @@ $ kiln complete -- check --set 'systems.*.forces.0.wind.field='
 1|word	systems.*.forces.0.wind.field=curl	
 1|word	systems.*.forces.0.wind.field=vortex	
 1|word	systems.*.forces.0.wind.field=grid	
+1|word	systems.*.forces.0.wind.field=baked	
 $ kiln complete -- check --set post.tonemap=a
 1|word	post.tonemap=agx	
 1|word	post.tonemap=aces	
