@@ -1,5 +1,5 @@
 /* Declares nodes: places in a scene that move and turn, to which emitters, objects, lights and the
- * camera are attached. What is attached lies in the node's frame: x is right, y up and z ahead.
+ * camera are attached. What is attached lies in the node's frame: z is ahead, y up and x left.
  *
  * A pose at a time is exact: it does not depend on the steps of a simulation. It is computed in
  * IEEE doubles from values of the scene and from paths, so every machine gets the same bits. */

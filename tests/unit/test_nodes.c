@@ -158,7 +158,7 @@ static void up_does_not_roll(void **state)
         scene_of("  a: {heading: path, position: {path: {points: [[0, 0, 0], [0, 1, 0], [1, 3, 0], "
                  "[2, 3, 2], [0, 2, 4], [-3, 5, 1]], over: [0 s, 4 s]}}}\n");
     const double h = 1.0 / 1024;
-    double up[3], ahead[3], before[3], after[3], right[3];
+    double up[3], ahead[3], before[3], after[3], left[3];
     const struct kiln_node_frame first = frame_of(scene, "a", 0);
     turned(&first, (const double[3]){0, 0, 1}, ahead);
     assert_true(ahead[1] > 0.9); /* it starts steeply */
@@ -169,7 +169,7 @@ static void up_does_not_roll(void **state)
         const struct kiln_node_frame c = frame_of(scene, "a", time_s + h);
         turned(&a, (const double[3]){0, 1, 0}, before);
         turned(&c, (const double[3]){0, 1, 0}, after);
-        turned(&b, (const double[3]){1, 0, 0}, right);
+        turned(&b, (const double[3]){1, 0, 0}, left);
         turned(&b, (const double[3]){0, 0, 1}, ahead);
         turned(&b, (const double[3]){0, 1, 0}, up);
         double change[3], along[3];
@@ -177,8 +177,8 @@ static void up_does_not_roll(void **state)
             change[k] = (after[k] - before[k]) / (2 * h);
             along[k] = (c.at[k] - a.at[k]) / (2 * h);
         }
-        if (!(fabs(dot(change, right)) < 2e-2))
-            fail_msg("at %g s, up rolls by %g rad/s", time_s, dot(change, right));
+        if (!(fabs(dot(change, left)) < 2e-2))
+            fail_msg("at %g s, up rolls by %g rad/s", time_s, dot(change, left));
         assert_true(dot(ahead, along) > 0.9999 * length_of(along));
         assert_true(fabs(dot(up, ahead)) < 1e-9);
         /* the speed along the curve is even */
