@@ -109,9 +109,24 @@ struct moments {
     struct value_clocks now, rates;
 };
 
+/* Returns whether a value that repeats is at its last key at a time. It is so only by rounding,
+ * since there the next turn begins; but a last key has no slope. */
+static bool is_at_last_key(const struct moments *m, const struct kiln_value *value)
+{
+    return value->count > 0 && VALUE_CLOCK(value->how) == KILN_CLOCK_TIME &&
+           VALUE_REPEAT(value->how) != VALUE_HOLDS &&
+           value_repeated(m->keys, *value, m->rates.time_s).x >=
+               m->keys[value->first + value->count - 1].x;
+}
+
 static float rate_of(const struct moments *m, const struct kiln_value *value)
 {
-    return value_rate_at(m->keys, *value, m->rates);
+    struct value_clocks clocks = m->rates;
+    const float side = clocks.time_s < m->now.time_s ? -INFINITY : INFINITY;
+    const int ulps = is_at_last_key(m, value) ? 4 : 0;
+    for (int i = 0; i < ulps; i++)
+        clocks.time_s = nextafterf(clocks.time_s, side);
+    return value_rate_at(m->keys, *value, clocks);
 }
 
 static float3 rates_of(const struct moments *m, const struct kiln_value3 *value)
@@ -198,12 +213,17 @@ static struct kiln_node_frame inside_of(const struct kiln_node_frame *parent,
     return frame;
 }
 
+static struct moments moments_at(const struct kiln_scene *scene, float time_s, float rate_s)
+{
+    const uint32_t key = random_noise_key(scene->seed);
+    return (struct moments){scene->keys, value_clocks_at(time_s, key, key),
+                            value_clocks_at(rate_s, key, key)};
+}
+
 struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
                                           float time_s, float rate_s)
 {
-    const uint32_t key = random_noise_key(scene->seed);
-    const struct moments m = {scene->keys, value_clocks_at(time_s, key, key),
-                              value_clocks_at(rate_s, key, key)};
+    const struct moments m = moments_at(scene, time_s, rate_s);
     struct kiln_node_frame frame = own_frame(&scene->nodes[node], &m);
     for (const struct kiln_attach *parent = &scene->nodes[node].parent; parent->name;
          parent = &scene->nodes[parent->node].parent) {
@@ -211,6 +231,112 @@ struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32
         frame = inside_of(&outer, &frame);
     }
     return frame;
+}
+
+/* ---- steps ----------------------------------------------------------------------------------- */
+
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Returns how far a quantity may come from where the mean of its rates at both ends of a step would
+ * bring it. A corner of its curve within the step explains the difference of the rates, and a bend
+ * a part of the rates. What is farther has jumped. */
+static double explained(const double from[3], const double to[3], double dt_s)
+{
+    const double change[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    return dt_s * (length_of(change) + 0.25 * (length_of(from) + length_of(to)));
+}
+
+static bool place_jumps(const struct kiln_node_frame *start, const struct kiln_node_frame *end,
+                        double dt_s)
+{
+    double off[3];
+    for (int c = 0; c < 3; c++)
+        off[c] = end->at[c] - start->at[c] - 0.5 * dt_s * (start->velocity[c] + end->velocity[c]);
+    return length_of(off) >
+           explained(start->velocity, end->velocity, dt_s) + 1e-6 * (1 + length_of(start->at));
+}
+
+/* Rotates a pose further by a spin that lasts for a time. */
+static void spin_on(double y[4], const double turn[4], const double spin[3], double time_s)
+{
+    const double rate = length_of(spin);
+    const struct exact_angle half = exact_sincos((float)(0.5 * rate * time_s));
+    double by[4] = {0, 0, 0, (double)half.cosine};
+    for (int c = 0; c < 3 && rate > 0; c++)
+        by[c] = spin[c] / rate * (double)half.sine;
+    multiply(y, by, turn);
+}
+
+static bool turn_jumps(const struct kiln_node_frame *start, const struct kiln_node_frame *end,
+                       double dt_s)
+{
+    const double limit = explained(start->spin, end->spin, dt_s) + 1e-4;
+    double mean[3], wanted[4], off[4];
+    if (limit > 3.14)
+        return false;
+    for (int c = 0; c < 3; c++)
+        mean[c] = 0.5 * (start->spin[c] + end->spin[c]);
+    spin_on(wanted, start->turn, mean, dt_s);
+    multiply(off, end->turn, (const double[4]){-wanted[0], -wanted[1], -wanted[2], wanted[3]});
+    return length_of(off) > (double)exact_sincos((float)(0.5 * limit)).sine;
+}
+
+static bool scale_jumps(const struct kiln_node_frame *start, const struct kiln_node_frame *end,
+                        double dt_s)
+{
+    const double off = end->scale - start->scale - 0.5 * dt_s * (start->growth + end->growth);
+    const double from[3] = {start->growth, 0, 0}, to[3] = {end->growth, 0, 0};
+    return fabs(off) > explained(from, to, dt_s) + 1e-6 * start->scale;
+}
+
+/* Lets what jumps between the frames of a node at both ends of a step go on as before instead: the
+ * place, the rotation and the scale, each by itself. Returns whether something jumps. */
+static bool go_on(const struct kiln_node_frame *start, struct kiln_node_frame *end, double dt_s)
+{
+    const bool place = place_jumps(start, end, dt_s), turn = turn_jumps(start, end, dt_s);
+    const bool scale = scale_jumps(start, end, dt_s);
+    if (place) {
+        memcpy(end->velocity, start->velocity, sizeof end->velocity);
+        for (int c = 0; c < 3; c++)
+            end->at[c] = start->at[c] + dt_s * start->velocity[c];
+    }
+    if (turn) {
+        memcpy(end->spin, start->spin, sizeof end->spin);
+        spin_on(end->turn, start->turn, start->spin, dt_s);
+    }
+    if (scale) {
+        const double grown = start->scale + dt_s * start->growth;
+        end->scale = grown > 0 ? grown : start->scale;
+        end->growth = grown > 0 ? start->growth : 0;
+    }
+    return place || turn || scale;
+}
+
+struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t node,
+                                        uint32_t step)
+{
+    const double dt_s = (double)scene->rate.den / (double)scene->rate.num;
+    const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
+    const struct moments first = moments_at(scene, start_s, start_s);
+    const struct moments last = moments_at(scene, end_s, nextafterf(end_s, -INFINITY));
+    const struct kiln_scene_node *own = &scene->nodes[node];
+    struct kiln_node_step found = {.start = own_frame(own, &first), .end = own_frame(own, &last)};
+    found.on = found.end;
+    found.jumps = go_on(&found.start, &found.on, dt_s);
+    for (; own->parent.name; own = &scene->nodes[own->parent.node]) {
+        const struct kiln_scene_node *parent = &scene->nodes[own->parent.node];
+        const struct kiln_node_frame start = own_frame(parent, &first);
+        const struct kiln_node_frame end = own_frame(parent, &last);
+        struct kiln_node_frame on = end;
+        found.jumps |= go_on(&start, &on, dt_s);
+        found.start = inside_of(&start, &found.start);
+        found.end = inside_of(&end, &found.end);
+        found.on = inside_of(&on, &found.on);
+    }
+    return found;
 }
 
 /* ---- questions ------------------------------------------------------------------------------- */

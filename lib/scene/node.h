@@ -68,6 +68,21 @@ struct kiln_node_frame {
 struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
                                           float time_s, float rate_s);
 
+/* The frames of a node at both ends of a step. */
+struct kiln_node_step {
+    struct kiln_node_frame start, end;
+    /* The end of a node that does not jump: where the place, the rotation or the scale of the node,
+     * or of one of its parents, jumps within the step, that part goes on as before in its parent's
+     * frame. Without a jump, this is `end`. */
+    struct kiln_node_frame on;
+    bool jumps;
+};
+
+/* Returns the frames of a node at both ends of a step, from 1. The rates at the end are those just
+ * before. */
+struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t node,
+                                        uint32_t step);
+
 /* Returns the quaternion of the rotation about x, then y, then z, by angles in radians. */
 void kiln_node_turn_of_angles(float3 angles, double turn[4]);
 

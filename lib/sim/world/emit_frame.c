@@ -14,38 +14,43 @@ static double length_of(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Returns whether a node jumps between two frames: it is farther from where the mean of its
- * velocities would bring it than both of them together explain. */
-static bool jumps(const struct kiln_node_frame *start, const struct kiln_node_frame *end,
-                  double dt_s)
-{
-    double off[3];
-    for (int c = 0; c < 3; c++)
-        off[c] = end->at[c] - start->at[c] - 0.5 * dt_s * (start->velocity[c] + end->velocity[c]);
-    const double explained = dt_s * (length_of(start->velocity) + length_of(end->velocity));
-    return length_of(off) > explained + 1e-6 * (1 + length_of(start->at));
-}
-
 static float4 to_float4(const double v[3], double w)
 {
     return FLOAT4(exact_canon((float)v[0]), exact_canon((float)v[1]), exact_canon((float)v[2]),
                   exact_canon((float)w));
 }
 
+/* Returns the rotation from one frame to the other as an axis and an angle. Between two poses there
+ * are many: this is the one nearest to the mean of the spins at both ends, which may be several
+ * turns. */
+static float4 find_spin(const struct kiln_node_frame *start, const struct kiln_node_frame *end,
+                        double dt_s)
+{
+    const double turn = 6.283185307179586;
+    float4 spin = kiln_spin_between_turns(start->turn, end->turn);
+    double mean[3];
+    for (int c = 0; c < 3; c++)
+        mean[c] = 0.5 * dt_s * (start->spin[c] + end->spin[c]);
+    const double angle = length_of(mean);
+    if (angle < 0.25 * turn)
+        return spin; /* the shorter way */
+    /* after whole turns, the poses alone do not tell the axis */
+    if (fabsf(spin.w) < 1e-3f)
+        spin = to_float4((const double[3]){mean[0] / angle, mean[1] / angle, mean[2] / angle}, 0);
+    const double along =
+        (double)spin.x * mean[0] + (double)spin.y * mean[1] + (double)spin.z * mean[2];
+    const double turns = floor((along - (double)spin.w) / turn + 0.5);
+    spin.w = (float)((double)spin.w + turns * turn);
+    return spin;
+}
+
 struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene, uint32_t node, uint32_t step)
 {
-    const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
     const double steps_per_s = (double)scene->rate.num / (double)scene->rate.den;
     const double dt_s = 1 / steps_per_s;
-    const struct kiln_node_frame start = kiln_node_frame_at(scene, node, start_s, start_s);
-    struct kiln_node_frame end =
-        kiln_node_frame_at(scene, node, end_s, nextafterf(end_s, -INFINITY));
+    const struct kiln_node_step found = kiln_node_step_at(scene, node, step);
+    const struct kiln_node_frame start = found.start, end = found.on;
     double linear[3], square[3], cube[3];
-    if (jumps(&start, &end, dt_s)) {
-        end = start;
-        for (int c = 0; c < 3; c++)
-            end.at[c] += dt_s * start.velocity[c];
-    }
     for (int c = 0; c < 3; c++) {
         const double way = end.at[c] - start.at[c], to = dt_s * end.velocity[c];
         linear[c] = dt_s * start.velocity[c];
@@ -59,6 +64,6 @@ struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene, uint32_t 
         .cube = to_float4(cube, 0),
         .pose = FLOAT4(exact_canon((float)start.turn[0]), exact_canon((float)start.turn[1]),
                        exact_canon((float)start.turn[2]), exact_canon((float)start.turn[3])),
-        .spin = kiln_spin_between_turns(start.turn, end.turn),
+        .spin = find_spin(&start, &end, dt_s),
     };
 }
