@@ -450,19 +450,19 @@ void kiln_object_rotation(const struct kiln_scene *scene, const struct kiln_obje
 struct kiln_camera_stand kiln_scene_camera_at(const struct kiln_scene *scene, float time_s)
 {
     const struct kiln_camera *camera = &scene->camera;
-    struct kiln_camera_stand stand = {
-        .eye = kiln_scene_value3(scene, &camera->position, time_s),
-        .target = kiln_scene_value3(scene, &camera->target, time_s),
-        .up = FLOAT3(0.0f, 1.0f, 0.0f),
-    };
-    const float3 way = float3_sub(stand.target, stand.eye);
+    const float3 eye = kiln_scene_value3(scene, &camera->position, time_s);
+    const float3 target = kiln_scene_value3(scene, &camera->target, time_s);
+    const float3 way = float3_sub(target, eye);
     const float square = float3_dot(way, way);
     const float rise = square < KILN_CAMERA_NO_WAY ? 0.0f : way.y / sqrtf(square);
+    float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
     /* Where the camera looks straight down or up, the frame's up cannot be the picture's up. */
     if (fabsf(rise) > 0.9999f)
-        stand.up = FLOAT3(0.0f, 0.0f, rise > 0.0f ? 1.0f : -1.0f);
-    stand.eye = kiln_attached_point(scene, &camera->attach, stand.eye, time_s);
-    stand.target = kiln_attached_point(scene, &camera->attach, stand.target, time_s);
-    stand.up = kiln_attached_vector(scene, &camera->attach, stand.up, time_s);
-    return stand;
+        up = FLOAT3(0.0f, 0.0f, rise > 0.0f ? 1.0f : -1.0f);
+    return (struct kiln_camera_stand){
+        .eye = kiln_attached_point(scene, &camera->attach, eye, time_s),
+        .way = kiln_attached_vector(scene, &camera->attach, way, time_s),
+        .distance = kiln_attached_length(scene, &camera->attach, sqrtf(square), time_s),
+        .up = kiln_attached_vector(scene, &camera->attach, up, time_s),
+    };
 }

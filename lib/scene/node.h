@@ -117,13 +117,15 @@ float kiln_object_length(const struct kiln_scene *scene, const struct kiln_objec
 void kiln_object_rotation(const struct kiln_scene *scene, const struct kiln_object *object,
                           float time_s, float columns[3][3]);
 
-/* Below this square of the distance from the eye to the target, m^2, the camera looks along -z. */
+/* Below this square of the way from the eye to the target, the camera looks along -z. */
 #define KILN_CAMERA_NO_WAY 1e-12f
 
 /* Where the camera is and what it looks at, in the world. */
 struct kiln_camera_stand {
-    float3 eye, target; /* m */
-    float3 up;          /* unit vector, of which the part across the line of sight counts */
+    float3 eye; /* m */
+    float3 way; /* the direction from the eye to the target, as long as the way in its node is */
+    float distance; /* from the eye to the target, m */
+    float3 up;      /* unit vector, of which the part across the line of sight counts */
 };
 
 struct kiln_camera_stand kiln_scene_camera_at(const struct kiln_scene *scene, float time_s);
