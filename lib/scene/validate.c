@@ -11,6 +11,7 @@
 #include "asset/geometry/chart.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
+#include "scene/impacts.h"
 #include "scene/instant.h"
 #include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
@@ -314,6 +315,8 @@ static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *r
 {
     struct kiln_collide *collide = &system->collide;
     char path[128];
+    if (!kiln_impacts_agree(reader, root, system))
+        return false;
     snprintf(path, sizeof path, "systems.%s.collide.then", system->name);
     if (collide->dies && collide->then == KILN_THEN_STOP)
         return kiln_reader_error_at(reader, root, path, "must not be stop where `dies` is true");

@@ -174,6 +174,20 @@ static const struct bad types[] = {
      "systems: {a: {collide: {dies: true, then: stop}}}\n",
      ":2:43: systems.a.collide.then: must not be stop where `dies` is true"},
     {"kiln: 1\n"
+     "systems: {a: {collide: {dies: true, then: bounce}}}\n",
+     ":2:43: systems.a.collide.then: must not be bounce where `dies` is true"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: die, dies: false}}}\n",
+     ":2:31: systems.a.collide.then: must not be die where `dies` is false"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {chance: 0.5}}}\n",
+     ":2:33: systems.a.collide.chance: needs a `then` other than bounce, which is what particles "
+     "do by the rest of the chance"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: bounce, chance: {life: [0, 1]}}}}\n",
+     ":2:47: systems.a.collide.chance: needs a `then` other than bounce, which is what particles "
+     "do by the rest of the chance"},
+    {"kiln: 1\n"
      "systems: {a: {collide: {then: stop}, interact: [collide: {}]}}\n",
      ":2:31: systems.a.collide.then: must not be stop where particles interact, since nothing "
      "pushes a particle that has stopped"},
