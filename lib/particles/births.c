@@ -69,10 +69,11 @@ static void add_burst(const struct kiln_births_source *source, uint32_t i, uint3
     double start = ((double)step - 1.0) * 64.0;
     if (!(parts >= start && parts < start + 64.0))
         return;
+    const uint32_t count = count_of(burst, stream, purpose);
     if (births->group_count - (births->of_rate > 0) == KILN_MAX_BURSTS)
-        births->left_out = true;
+        births->left_out |= count > 0;
     else
-        add_group(births, count_of(burst, stream, purpose), (uint32_t)(parts - start) << 26, 0);
+        add_group(births, count, (uint32_t)(parts - start) << 26, 0);
 }
 
 /* Adds the repetitions of burst number i that happen in the step. Looks at all that may: a little

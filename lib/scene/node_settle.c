@@ -27,6 +27,18 @@ static bool find_node(struct kiln_reader *reader, const struct kiln_node *root, 
     return kiln_reader_error_at(reader, root, path, "unknown node '%s'%s", quoted, suggestion);
 }
 
+/* Refuses a node that no attached part could name. */
+static bool check_names(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (strcmp(scene->nodes[i].name, "none") == 0)
+            return kiln_reader_error_at(reader, root, "nodes.none",
+                                        "must have another name, since none stands for no node");
+    }
+    return true;
+}
+
 static bool find_parents(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -81,10 +93,15 @@ static bool settle_path(struct kiln_reader *reader, const struct kiln_node *root
                kiln_reader_error_at(reader, root, path, "needs a position that is a path");
     }
     snprintf(path, sizeof path, "nodes.%s.position.path.over", node->name);
-    if (!(curve->over.min.constant < curve->over.max.constant))
+    if (!(curve->over.min.constant < curve->over.max.constant)) {
+        char first[48], last[48];
+        kiln_unit_print(first, KILN_SECONDS, curve->over.min.constant);
+        kiln_unit_print(last, KILN_SECONDS, curve->over.max.constant);
         return kiln_reader_error_at(reader, root, path,
                                     "expected two times, [first, last], of which the second is the "
-                                    "later one");
+                                    "later one, found %s and %s",
+                                    first, last);
+    }
     snprintf(path, sizeof path, "nodes.%s.position.path.points", node->name);
     if (curve->closed && count < 3)
         return kiln_reader_error_at(reader, root, path,
@@ -197,7 +214,7 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
 bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
-    bool ok = find_parents(reader, root);
+    bool ok = check_names(reader, root) && find_parents(reader, root);
     for (uint32_t i = 0; ok && i < scene->node_count; i++)
         ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
     return ok && settle_camera(reader, root) && find_backdrop(reader, root) &&
