@@ -9,26 +9,19 @@
 #include <string.h>
 
 #include "base/matrix.h"
+#include "scene/double3.h"
 #include "scene/scene.h"
 #include "shared/exact.h"
 #include "shared/random.h"
 
-/* ---- quaternions of doubles: x, y, z, w
- * ------------------------------------------------------- */
-
-static void cross(double y[3], const double a[3], const double b[3])
-{
-    y[0] = a[1] * b[2] - a[2] * b[1];
-    y[1] = a[2] * b[0] - a[0] * b[2];
-    y[2] = a[0] * b[1] - a[1] * b[0];
-}
+/* ---- quaternions: x, y, z, w ----------------------------------------------------------------- */
 
 /* Rotates v by a unit quaternion. */
 static void rotate(double y[3], const double turn[4], const double v[3])
 {
     double across[3], more[3];
-    cross(across, turn, v);
-    cross(more, turn, across);
+    double3_cross(across, turn, v);
+    double3_cross(more, turn, across);
     for (int c = 0; c < 3; c++)
         y[c] = v[c] + 2 * (turn[3] * across[c] + more[c]);
 }
@@ -69,7 +62,7 @@ void kiln_node_turn_of_angles(float3 angles, double turn[4])
 static void turn_of_frame(double turn[4], const double ahead[3], const double up[3])
 {
     double m[3][3]; /* columns */
-    cross(m[0], up, ahead);
+    double3_cross(m[0], up, ahead);
     memcpy(m[1], up, sizeof m[1]);
     memcpy(m[2], ahead, sizeof m[2]);
     const double trace = m[0][0] + m[1][1] + m[2][2];
@@ -203,7 +196,7 @@ static struct kiln_node_frame inside_of(const struct kiln_node_frame *parent,
     rotate(moved, parent->turn, inside);
     for (int c = 0; c < 3; c++)
         at[c] *= parent->scale;
-    cross(carried, parent->spin, at);
+    double3_cross(carried, parent->spin, at);
     for (int c = 0; c < 3; c++) {
         frame.at[c] = parent->at[c] + at[c];
         frame.velocity[c] = parent->velocity[c] + carried[c] + moved[c];
@@ -235,18 +228,13 @@ struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32
 
 /* ---- steps ----------------------------------------------------------------------------------- */
 
-static double length_of(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
 /* Returns how far a quantity may come from where the mean of its rates at both ends of a step would
  * bring it. A corner of its curve within the step explains the difference of the rates, and a bend
  * a part of the rates. What is farther has jumped. */
 static double explained(const double from[3], const double to[3], double dt_s)
 {
     const double change[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-    return dt_s * (length_of(change) + 0.25 * (length_of(from) + length_of(to)));
+    return dt_s * (double3_length(change) + 0.25 * (double3_length(from) + double3_length(to)));
 }
 
 static bool place_jumps(const struct kiln_node_frame *start, const struct kiln_node_frame *end,
@@ -255,14 +243,14 @@ static bool place_jumps(const struct kiln_node_frame *start, const struct kiln_n
     double off[3];
     for (int c = 0; c < 3; c++)
         off[c] = end->at[c] - start->at[c] - 0.5 * dt_s * (start->velocity[c] + end->velocity[c]);
-    return length_of(off) >
-           explained(start->velocity, end->velocity, dt_s) + 1e-6 * (1 + length_of(start->at));
+    return double3_length(off) >
+           explained(start->velocity, end->velocity, dt_s) + 1e-6 * (1 + double3_length(start->at));
 }
 
 /* Rotates a pose further by a spin that lasts for a time. */
 static void spin_on(double y[4], const double turn[4], const double spin[3], double time_s)
 {
-    const double rate = length_of(spin);
+    const double rate = double3_length(spin);
     const struct exact_angle half = exact_sincos((float)(0.5 * rate * time_s));
     double by[4] = {0, 0, 0, (double)half.cosine};
     for (int c = 0; c < 3 && rate > 0; c++)
@@ -281,7 +269,7 @@ static bool turn_jumps(const struct kiln_node_frame *start, const struct kiln_no
         mean[c] = 0.5 * (start->spin[c] + end->spin[c]);
     spin_on(wanted, start->turn, mean, dt_s);
     multiply(off, end->turn, (const double[4]){-wanted[0], -wanted[1], -wanted[2], wanted[3]});
-    return length_of(off) > (double)exact_sincos((float)(0.5 * limit)).sine;
+    return double3_length(off) > (double)exact_sincos((float)(0.5 * limit)).sine;
 }
 
 static bool scale_jumps(const struct kiln_node_frame *start, const struct kiln_node_frame *end,

@@ -38,6 +38,7 @@ unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
 
 /* Returns the bits of all parts if deaths of parents at impacts count, and otherwise 0. */
 unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
+
 /* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
  * kiln_force, kiln_object, kiln_light or kiln_camera. */
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);

@@ -2,8 +2,7 @@
  * it: a system, a clip. */
 #include "scene/options.h"
 
-/* ---- name: its system is looked up when all systems are read
- * ---------------------------------- */
+/* ---- name: its system is found when all systems are read ------------------------------------- */
 
 static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
@@ -31,8 +30,7 @@ const struct kiln_option_type kiln_type_name = {
     .schema = schema_name,
 };
 
-/* ---- clip: it is looked up when the mesh file is read
- * ------------------------------------------ */
+/* ---- clip: it is found when the mesh file is read -------------------------------------------- */
 
 static bool read_clip(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)

@@ -292,7 +292,7 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Checks that a force that acts in a region has one. */
+/* Checks that each region of a force has one shape. */
 static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
                           const struct kiln_system *system)
 {

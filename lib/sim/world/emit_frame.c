@@ -6,13 +6,9 @@
 
 #include <math.h>
 
+#include "scene/double3.h"
 #include "shared/exact.h"
 #include "sim/world/oriented.h"
-
-static double length_of(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
 
 static float4 to_float4(const double v[3], double w)
 {
@@ -31,7 +27,7 @@ static float4 find_spin(const struct kiln_node_frame *start, const struct kiln_n
     double mean[3];
     for (int c = 0; c < 3; c++)
         mean[c] = 0.5 * dt_s * (start->spin[c] + end->spin[c]);
-    const double angle = length_of(mean);
+    const double angle = double3_length(mean);
     if (angle < 0.25 * turn)
         return spin; /* the shorter way */
     /* after whole turns, the poses alone do not tell the axis */
