@@ -10,6 +10,7 @@
 
 #include "base/matrix.h"
 #include "scene/double3.h"
+#include "scene/node_cache.h"
 #include "scene/scene.h"
 #include "shared/exact.h"
 #include "shared/random.h"
@@ -213,16 +214,37 @@ static struct moments moments_at(const struct kiln_scene *scene, float time_s, f
                             value_clocks_at(rate_s, key, key)};
 }
 
+/* Does own_frame for a node that others may have asked for. */
+static struct kiln_node_frame known_frame(const struct kiln_scene *scene, uint32_t node,
+                                          const struct moments *m)
+{
+    struct kiln_node_cache *cache = scene->node_cache;
+    const float time_s = m->now.time_s, rate_s = m->rates.time_s;
+    struct kiln_node_frame frame;
+    if (cache && kiln_node_cache_find(cache, KILN_NODE_FRAME_OWN, node, time_s, rate_s, &frame))
+        return frame;
+    frame = own_frame(&scene->nodes[node], m);
+    if (cache)
+        kiln_node_cache_keep(cache, KILN_NODE_FRAME_OWN, node, time_s, rate_s, &frame);
+    return frame;
+}
+
 struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
                                           float time_s, float rate_s)
 {
+    struct kiln_node_cache *cache = scene->node_cache;
+    struct kiln_node_frame frame;
+    if (cache && kiln_node_cache_find(cache, KILN_NODE_FRAME_WORLD, node, time_s, rate_s, &frame))
+        return frame;
     const struct moments m = moments_at(scene, time_s, rate_s);
-    struct kiln_node_frame frame = own_frame(&scene->nodes[node], &m);
+    frame = known_frame(scene, node, &m);
     for (const struct kiln_attach *parent = &scene->nodes[node].parent; parent->name;
          parent = &scene->nodes[parent->node].parent) {
-        const struct kiln_node_frame outer = own_frame(&scene->nodes[parent->node], &m);
+        const struct kiln_node_frame outer = known_frame(scene, parent->node, &m);
         frame = inside_of(&outer, &frame);
     }
+    if (cache)
+        kiln_node_cache_keep(cache, KILN_NODE_FRAME_WORLD, node, time_s, rate_s, &frame);
     return frame;
 }
 
@@ -310,14 +332,14 @@ struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t
     const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
     const struct moments first = moments_at(scene, start_s, start_s);
     const struct moments last = moments_at(scene, end_s, nextafterf(end_s, -INFINITY));
-    const struct kiln_scene_node *own = &scene->nodes[node];
-    struct kiln_node_step found = {.start = own_frame(own, &first), .end = own_frame(own, &last)};
+    struct kiln_node_step found = {.start = known_frame(scene, node, &first),
+                                   .end = known_frame(scene, node, &last)};
     found.on = found.end;
     found.jumps = go_on(&found.start, &found.on, dt_s);
-    for (; own->parent.name; own = &scene->nodes[own->parent.node]) {
-        const struct kiln_scene_node *parent = &scene->nodes[own->parent.node];
-        const struct kiln_node_frame start = own_frame(parent, &first);
-        const struct kiln_node_frame end = own_frame(parent, &last);
+    for (const struct kiln_attach *parent = &scene->nodes[node].parent; parent->name;
+         parent = &scene->nodes[parent->node].parent) {
+        const struct kiln_node_frame start = known_frame(scene, parent->node, &first);
+        const struct kiln_node_frame end = known_frame(scene, parent->node, &last);
         struct kiln_node_frame on = end;
         found.jumps |= go_on(&start, &on, dt_s);
         found.start = inside_of(&start, &found.start);
