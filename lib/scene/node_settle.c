@@ -188,6 +188,18 @@ static bool find_systems(struct kiln_reader *reader, const struct kiln_node *roo
     return true;
 }
 
+/* Checks that a camera that looks ahead in its node, at nothing, knows where it is in focus. */
+static bool check_focus(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_value *focus = &scene->camera.focus;
+    const bool by_target = focus->count == 0 && focus->constant == KILN_VALUE_BY_WORD;
+    return !by_target || !(kiln_scene_value_max(scene, &scene->camera.aperture) > 0.0f) ||
+           kiln_reader_error_at(reader, root, "camera.focus",
+                                "must be a distance, such as 5 m, where a camera with an aperture "
+                                "has no target in its node");
+}
+
 /* Puts a camera that says no more than its node into that node, and lets it look along z. */
 static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *root)
 {
@@ -205,6 +217,8 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
         return kiln_reader_error_at(reader, root, "camera.position",
                                     "varies within a node, so the camera needs a target, too");
     if (!aimed) {
+        if (!check_focus(reader, root))
+            return false;
         camera->target = camera->position;
         camera->target.z.constant += 1;
     }

@@ -90,6 +90,17 @@ static const struct bad attached[] = {
      "camera: {attach: a, position: {keys: {0 s: [0, 0, 0], 1 s: [1, 0, 0]}}}\n",
      ":3:31: camera.position: varies within a node, so the camera needs a target, too"},
     {"kiln: 1\n"
+     "nodes: {a: {}}\n"
+     "camera: {attach: a, aperture: 10 cm}\n",
+     ":3:9: camera.focus: must be a distance, such as 5 m, where a camera with an aperture has no "
+     "target in its node"},
+    {"kiln: 1\n"
+     "nodes: {a: {}}\n"
+     "camera: {attach: a, position: [1, 0, 0], aperture: {keys: {0 s: 0, 1 s: 1 cm}}, focus: "
+     "target}\n",
+     ":3:88: camera.focus: must be a distance, such as 5 m, where a camera with an aperture has no "
+     "target in its node"},
+    {"kiln: 1\n"
      "backdrop: {objects: [{sphere: {}}, {box: {attach: a}}]}\n",
      ":2:51: backdrop.objects.1.box.attach: unknown node 'a' (there are none)"},
     {"kiln: 1\n"
