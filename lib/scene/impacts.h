@@ -2,8 +2,7 @@
 #ifndef KILN_SCENE_IMPACTS_H
 #define KILN_SCENE_IMPACTS_H
 
-#include "option/reader.h"
-#include "scene/scene.h"
+#include "scene/options.h"
 
 /* Checks that the keys of `collide` that a file has for what impacts do agree: `dies`, `then` and
  * `chance`. Call it before the one key is set from the other. */

@@ -16,6 +16,7 @@
 #include "base/hash.h"
 #include "base/sized.h"
 #include "scene/asset_path.h"
+#include "scene/fast_nodes.h"
 #include "scene/light_notes.h"
 #include "scene/mesh_notes.h"
 #include "scene/node_cache.h"
@@ -127,6 +128,7 @@ static bool build(struct kiln_reader *reader, const char *text,
         !(scene->node_cache = kiln_node_cache_create(reader->arena, scene->node_count)))
         return kiln_reader_out_of_memory(reader);
     kiln_small_steps_warn(reader, root);
+    kiln_fast_nodes_warn(reader, root);
     kiln_light_notes_warn(reader, root);
     kiln_mesh_notes_warn(reader, root, &params->log);
     return true;

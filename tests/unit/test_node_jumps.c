@@ -1,6 +1,7 @@
 /* Births of emitters whose nodes jump, or turn more than half a turn in a step, are compared with
  * closed forms. If this fails, particles are thrown by a jump that no node has flown. */
 #include <math.h>
+#include <string.h>
 
 #include "scene/scene.h"
 #include "shared/derived.h"
@@ -153,12 +154,102 @@ static void fast_spins_go_the_way_that_they_turn(void **state)
     }
 }
 
+/* ---- objects --------------------------------------------------------------------------------- */
+
+/* Runs particles that rest between two places of a sphere; returns the state after its jump. */
+static struct kiln_state_hash hash_after_jump(const char *nodes, const char *sphere,
+                                              uint32_t *moved)
+{
+    char text[1024];
+    uint64_t alive;
+    snprintf(text, sizeof text,
+             "kiln: 1\noutput: {frames: 60, fps: 60}\n%s"
+             "backdrop: {objects: [sphere: {radius: 0.5 m, %s}]}\n"
+             "systems: {s: {emit: {bursts: {0 s: 100}, life: 9 s, speed: 0, from: {box: {origin: "
+             "[0, 1, 0], size: [1, 1, 1]}}}, collide: {}}}\n",
+             nodes, sphere);
+    struct kiln_scene *scene = load_scene(text, NULL);
+    struct simulation run;
+    simulation_start(&run, scene, NULL, 1);
+    simulation_run(&run, 40);
+    const struct kiln_state_hash hash = simulation_hash(&run, &alive);
+    const struct kiln_particle *records = simulation_records(&run);
+    *moved = 0;
+    for (uint32_t i = 0; i < run.pool.systems[0].capacity; i++)
+        *moved += particle_is_alive(records[i]) && particle_velocity(records[i]).x > 1;
+    simulation_end(&run);
+    kiln_scene_destroy(&scene);
+    return hash;
+}
+
+static void objects_that_jump_sweep_as_those_without_nodes(void **state)
+{
+    (void)state;
+    uint32_t by_node, by_hand;
+    const struct kiln_state_hash node = hash_after_jump(
+        "nodes: {a: {position: {keys: {0 s: [-5, 1, 0], 0.5 s: [5, 1, 0]}, ease: step}}}\n",
+        "attach: a, center: [0, 0, 0]", &by_node);
+    const struct kiln_state_hash hand = hash_after_jump(
+        "", "center: {keys: {0 s: [-5, 1, 0], 0.5 s: [5, 1, 0]}, ease: step}", &by_hand);
+    assert_memory_equal(&node, &hand, sizeof node);
+    assert_true(by_node > 50 && by_node == by_hand);
+}
+
+/* ---- warnings -------------------------------------------------------------------------------- */
+
+static void keep_warning(void *user, enum kiln_log_level level, const char *line)
+{
+    char *text = user;
+    assert_int_equal(level, KILN_LOG_WARNING);
+    assert_int_equal(text[0], '\0');
+    snprintf(text, KILN_MESSAGE_SIZE, "%s", line);
+}
+
+/* A tip of 1 m on a node that turns by `degrees` in each step of a 60th of a second. */
+static void expect_warning(const char *tip, double speed, const char *wanted)
+{
+    char text[1024], warning[KILN_MESSAGE_SIZE] = "";
+    struct kiln_scene_params params = kiln_scene_defaults();
+    struct kiln_error error = {0};
+    params.log = (struct kiln_log){keep_warning, warning};
+    snprintf(text, sizeof text,
+             "kiln: 1\noutput: {frames: 60, fps: 60}\n"
+             "nodes:\n"
+             "  hub: {rotation: {keys: {0 s: [0, 0, 0], 0.1 s: [0, %.9g deg, 0]}, repeat: loop}}\n"
+             "  tip: {parent: hub, %s}\n"
+             "systems: {s: {emit: {rate: 60, attach: tip}}}\n",
+             6 * speed, tip);
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "test.yaml", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    assert_string_equal(warning, wanted);
+    kiln_scene_destroy(&scene);
+}
+
+static void arms_that_turn_fast_have_a_warning(void **state)
+{
+    (void)state;
+    expect_warning("position: [0, 0, 1]", 90, "");
+    expect_warning("position: [0, 0, 0]", 270, "");
+    expect_warning("position: [0, 0, 1]", 180,
+                   "test.yaml:6:40: systems.s.emit.attach: the node goes round 'hub', which turns "
+                   "by up to 180 deg in a step, so that births between two steps are up to 21 % of "
+                   "its distance beside the circle: let simulation.rate be 120 or more");
+    expect_warning(
+        "position: [0, {keys: {0 s: 0, 1 s: 1}}, 0]", 100,
+        "test.yaml:6:40: systems.s.emit.attach: the node goes round 'hub', which turns "
+        "by up to 100 deg in a step, so that births between two steps are up to 2.3 % of "
+        "its distance beside the circle: let simulation.rate be 120 or more");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(jumps_of_rotation_and_scale_throw_nothing),
         cmocka_unit_test(jumps_on_a_parent_that_moves_are_seen),
         cmocka_unit_test(fast_spins_go_the_way_that_they_turn),
+        cmocka_unit_test(objects_that_jump_sweep_as_those_without_nodes),
+        cmocka_unit_test(arms_that_turn_fast_have_a_warning),
     };
     return cmocka_run_group_tests_name("node_jumps", tests, NULL, NULL);
 }
