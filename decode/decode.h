@@ -154,6 +154,7 @@ struct decode_mesh {
      * some; only of a mesh that does not move */
     bool materials;
     bool moving; /* nodes, bones and clips are wanted, and vertices that these have not moved */
+    bool rig;    /* nodes, cameras and clips are wanted, and no vertices */
     const void *bytes;
     size_t size;
     /* Returns the bytes of another file that this one names, which the importer frees, or NULL if

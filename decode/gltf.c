@@ -18,9 +18,10 @@ const json_t *gltf_element(const struct gltf *g, enum gltf_list_name list, uint3
 
 static const char *const list_keys[GLTF_LISTS] = {
     [GLTF_ACCESSORS] = "accessors", [GLTF_ANIMATIONS] = "animations", [GLTF_BUFFERS] = "buffers",
-    [GLTF_IMAGES] = "images",       [GLTF_SAMPLERS] = "samplers",     [GLTF_TEXTURES] = "textures",
-    [GLTF_MATERIALS] = "materials", [GLTF_MESHES] = "meshes",         [GLTF_NODES] = "nodes",
-    [GLTF_SCENES] = "scenes",       [GLTF_SKINS] = "skins",           [GLTF_VIEWS] = "bufferViews"};
+    [GLTF_CAMERAS] = "cameras",     [GLTF_IMAGES] = "images",         [GLTF_SAMPLERS] = "samplers",
+    [GLTF_TEXTURES] = "textures",   [GLTF_MATERIALS] = "materials",   [GLTF_MESHES] = "meshes",
+    [GLTF_NODES] = "nodes",         [GLTF_SCENES] = "scenes",         [GLTF_SKINS] = "skins",
+    [GLTF_VIEWS] = "bufferViews"};
 
 bool gltf_reference(struct gltf *g, const json_t *object, const char *key, enum gltf_list_name list,
                     uint32_t *number)
@@ -287,10 +288,13 @@ bool decode_gltf(const struct decode_mesh *mesh, struct kiln_mesh_result *result
 {
     struct gltf g = {.wanted = mesh, .error = error, .notes = result->notes};
     bool ok = read_document(&g);
-    *needs_other = ok && has_draco(&g) && !decode_draco_is_ready();
-    ok = ok && !*needs_other && gltf_open_buffers(&g) && gltf_find_nodes(&g) &&
-         (mesh->moving ? gltf_moving(&g, result) : make_surface(&g, result));
-    if (ok)
+    *needs_other = ok && !mesh->rig && has_draco(&g) && !decode_draco_is_ready();
+    ok = ok && !*needs_other && gltf_open_buffers(&g) && gltf_find_nodes(&g);
+    if (ok && mesh->rig)
+        ok = gltf_rig(&g, result);
+    else if (ok)
+        ok = mesh->moving ? gltf_moving(&g, result) : make_surface(&g, result);
+    if (ok && !mesh->rig)
         result->morph_target_count = count_targets(&g);
     finish(&g);
     return ok;

@@ -1,7 +1,7 @@
 /* Declares the parts of the reader of glTF 2 files: the document (gltf.c), its buffers
  * (gltf_buffer.c), its numbers (gltf_accessor.c), nodes (gltf_node.c), primitives
- * (gltf_primitive.c), a model that does not move (gltf_still.c), and nodes, bones and clips of one
- * that moves (gltf_moving.c, gltf_clip.c).
+ * (gltf_primitive.c), a model that does not move (gltf_still.c), nodes, bones and clips of one that
+ * moves (gltf_moving.c, gltf_clip.c), and nodes, cameras and clips alone (gltf_rig.c).
  *
  * Functions that return bool set the document's error when they return false. */
 #ifndef KILN_DECODE_GLTF_H
@@ -17,6 +17,7 @@ enum gltf_list_name {
     GLTF_ACCESSORS,
     GLTF_ANIMATIONS,
     GLTF_BUFFERS,
+    GLTF_CAMERAS,
     GLTF_IMAGES,
     GLTF_MATERIALS,
     GLTF_MESHES,
@@ -249,13 +250,16 @@ void gltf_blend(const struct kiln_skin_weights *weights, const double (*bones)[3
 /* Returns the determinant of a matrix. */
 double gltf_determinant(const double m[3][4]);
 
-/* ---- gltf_still.c, gltf_moving.c, gltf_clip.c ------------------------------------------------ */
+/* ---- gltf_still.c, gltf_moving.c, gltf_rig.c, gltf_clip.c ------------------------------------ */
 
 /* Makes a model of what the scene shows. The caller finishes it, also after a failure. */
 bool gltf_still(struct gltf *g, struct decode_model *model);
 
 /* Fills in vertices, triangles, nodes, bones and clips of a mesh that moves. */
 bool gltf_moving(struct gltf *g, struct kiln_mesh_result *result);
+
+/* Fills in all nodes of the scene, and the clips that move them; no vertices. */
+bool gltf_rig(struct gltf *g, struct kiln_mesh_result *result);
 
 /* The vertices and triangles of a primitive in the result of a mesh that moves. */
 struct gltf_piece {
@@ -277,7 +281,8 @@ struct gltf_moved {
     uint32_t part_count;
 };
 
-/* Fills in the clips. */
+/* Fills in the clips. Of a mesh that moves, a node that a clip moves has keys for all that it has
+ * at rest, and there must be a clip. */
 bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved,
                     struct kiln_mesh_result *result);
 

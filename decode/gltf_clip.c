@@ -53,6 +53,7 @@ struct clips {
     /* the channel, from 1, that each node of the result has in the clip at hand */
     uint32_t *channels;
     uint32_t *morph_channels; /* of the morphs, in the same way */
+    size_t node_count;        /* the most nodes of the result */
     const json_t *samplers;   /* of the clip at hand */
 };
 
@@ -272,7 +273,7 @@ static bool put_clip(struct clips *c, const json_t *animation, const uint32_t *n
         sizeof clip->name)
         return GLTF_SET(g, "the name of an animation is longer than %d bytes",
                         KILN_MAX_CLIP_NAME - 1);
-    memset(c->channels, 0, KILN_MAX_SKIN_NODES * sizeof *c->channels);
+    memset(c->channels, 0, c->node_count * sizeof *c->channels);
     memset(c->morph_channels, 0, KILN_MAX_SKIN_MORPHS * sizeof *c->morph_channels);
     c->samplers = gltf_member(animation, "samplers");
     bool ok = true;
@@ -280,7 +281,7 @@ static bool put_clip(struct clips *c, const json_t *animation, const uint32_t *n
     size_t i_at = 0;
     for (const json_t *i; ok && (i = gltf_item(list, i_at)); i_at++)
         ok = put_channel(c, clip, i);
-    return ok && fill_channels(c, clip, numbers);
+    return ok && (g->wanted->rig || fill_channels(c, clip, numbers));
 }
 
 /* Keys must follow one another in the order of the channels, and a node's channels may come in any
@@ -311,8 +312,9 @@ static bool order_keys(struct clips *c)
 bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved, struct kiln_mesh_result *result)
 {
     struct clips c = {.g = g, .moved = moved, .skin = &result->skin};
-    uint32_t *numbers = calloc(KILN_MAX_SKIN_NODES, sizeof *numbers);
-    c.channels = malloc(KILN_MAX_SKIN_NODES * sizeof *c.channels);
+    c.node_count = g->wanted->rig ? KILN_MAX_RIG_NODES : KILN_MAX_SKIN_NODES;
+    uint32_t *numbers = calloc(c.node_count, sizeof *numbers);
+    c.channels = malloc(c.node_count * sizeof *c.channels);
     c.morph_channels = malloc(KILN_MAX_SKIN_MORPHS * sizeof *c.morph_channels);
     bool ok = numbers && c.channels && c.morph_channels;
     if (!ok)
@@ -327,5 +329,6 @@ bool gltf_put_clips(struct gltf *g, const struct gltf_moved *moved, struct kiln_
     free(numbers);
     free(c.channels);
     free(c.morph_channels);
-    return ok && (result->skin.clip_count > 0 || GLTF_SET(g, "the file has no animation"));
+    return ok && (g->wanted->rig || result->skin.clip_count > 0 ||
+                  GLTF_SET(g, "the file has no animation"));
 }

@@ -285,7 +285,8 @@ static void send_mesh(const struct kiln_decode_request *request, struct kiln_mes
                                         .vertices = result->vertex_count,
                                         .triangles = result->triangle_count,
                                         .morph_targets = result->morph_target_count,
-                                        .nodes = skin->node_count,
+                                        .nodes = request->rig ? result->rig.node_count
+                                                              : skin->node_count,
                                         .bones = skin->bone_count,
                                         .clips = skin->clip_count,
                                         .channels_of_clips = skin->channel_count,
@@ -311,6 +312,7 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
                                .uvs = request->uvs,
                                .materials = request->materials,
                                .moving = request->moving,
+                               .rig = request->rig,
                                .open = ask_for_file};
     unsigned char *bytes = read_file(file, request->most_bytes, &mesh.size, &error);
     struct kiln_mesh_result *result = bytes ? calloc(1, sizeof *result) : NULL;

@@ -54,6 +54,9 @@ static bool read_still(const struct decode_mesh *mesh, struct kiln_mesh_result *
 {
     struct decode_model model = {.looks = mesh->materials ? &result->looks : NULL,
                                  .notes = result->notes};
+    if (mesh->rig)
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "the file has no nodes; allowed are glTF and GLB files");
     if (mesh->moving)
         return kiln_error_set(error, KILN_INVALID_INPUT, "the file has no animation");
     const bool ok =
@@ -72,6 +75,8 @@ bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result
     if (!(is_gltf ? check_contents(mesh, error) && decode_gltf(mesh, result, needs_other, error)
                   : read_still(mesh, result, error)))
         return false;
+    if (mesh->rig)
+        return true;
     const char *lacks = result->triangle_count == 0 ? "no triangles"
                         : result->vertex_count < 3  ? "no triangle with an area"
                                                     : NULL;

@@ -30,14 +30,15 @@ set(kiln_test_times
         mutation.shapes mutation.turned python.module queue.smoke unit.clips unit.field unit.sun_cover"
     "10 hostile_results all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.render cli.stop docs.scenes
         fuzz.mesh golden.software gpu.billboards gpu.crowds gpu.instances gpu.lens gpu.long_loops gpu.nodes gpu.oit
-        gpu.shadows gpu.shutter gpu.sort gpu.states hostile_swap mutation.effects package.lintian unit.host unit.motion
-        unit.slots versions.0.1"
+        gpu.baked gpu.shadows gpu.shutter gpu.sort gpu.states hostile_swap mutation.effects package.lintian unit.host unit.motion
+        unit.baked unit.slots versions.0.1"
     "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort
         all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers golden.suite gpu.backdrops
         queue.attacks report.page tree.flicker"
-    "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.nodes all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.simulate
+    "40 all.gpu.backdrops/2 all.gpu.baked all.gpu.crowds all.gpu.nodes all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.events
+         gpu.simulate
         tree.tidy/4"
-    "80 all.unit.scene_place farm.slurm package.ci package.container"
+    "80 all.gpu.events all.unit.scene_place farm.slurm package.ci package.container"
     "120 package.install sanitize.build"
     "300 all.hostile_swap hostile_slow_helper_full package.release"
 )

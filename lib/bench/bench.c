@@ -37,7 +37,7 @@ static const struct kiln_suite_row SUITES[] = {
      kiln_suite_curves},
     {{"groups", "kernels by the size of their work groups (Heinz 2019, 2.2.5)", 1.5},
      kiln_suite_groups},
-    {{"forces", "simulation by its force and integrator", 0.3}, kiln_suite_forces},
+    {{"forces", "simulation by its force and integrator; baked winds", 0.7}, kiln_suite_forces},
     {{"colliders",
       "simulation by the objects that particles bounce off, and the building of volumes", 0.5},
      kiln_suite_colliders},

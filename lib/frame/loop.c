@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "frame/sizes.h"
 #include "frame/stages.h"
+#include "scene/family.h"
 #include "scene/instant.h"
 #include "scene/pool_layout.h"
 #include "scene/work.h"
@@ -340,7 +341,9 @@ uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop)
     const uint32_t slots = loop->run.pool.slot_count;
     uint64_t spins = 0;
     for (uint32_t i = 0; i < loop->scene->system_count; i++)
-        spins += kiln_scene_system_spins(loop->scene, i) ? loop->scene->systems[i].capacity : 0;
+        spins += ((uint64_t)kiln_scene_system_spins(loop->scene, i) +
+                  kiln_family_travels(loop->scene, i)) *
+                 loop->scene->systems[i].capacity;
     const size_t between =
         kiln_scene_has_instants_between(loop->scene) ? 2 * sizeof(struct kiln_particle) : 0;
     return (uint64_t)slots * (kiln_simulate_slot_bytes(techniques->simulate) + between) +

@@ -20,6 +20,9 @@ static void estimate(const struct kiln_scene *scene, struct kiln_footprint *foot
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, 1,
                        kiln_mesh_library_bytes(scene->meshes));
     kiln_pool_footprint(&layout, footprint);
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, scene->systems[i].emit.way_count,
+                           sizeof(uint64_t));
     if (kiln_scene_has_instants_between(scene)) { /* the particles before a step, and within it */
         kiln_between_footprint(scene, footprint);
         kiln_between_footprint(scene, footprint);

@@ -12,7 +12,9 @@
 #include "option/node_copy.h"
 #include "option/params.h"
 #include "option/unit.h"
+#include "scene/emit_way.h"
 #include "scene/small_steps.h"
+#include "scene/source.h"
 
 static const struct row {
     const char *service; /* the limit in the preset `service` */
@@ -182,7 +184,11 @@ static const struct size {
     {"parameters", KILN_MAX_PARAMS, .help = "Parameters"},
     {"includes", KILN_INCLUDE_MAX_FILES, .help = "Included files, through at most 8 files"},
     {"copies", KILN_NODE_MAX_COPIES, .help = "Nodes that aliases, uses and parameters copy"},
+    {"ways", KILN_MAX_WAY_STEPS, .help = "Steps of the ways of emitters by the metre, in all"},
     {"winds", KILN_MAX_WINDS, .help = "Files of wind"},
+    {"sources", KILN_MAX_SOURCE_CELLS,
+     .help = "Triangles, vertices and pixels that particles are born on"},
+    {"baked", KILN_MAX_BAKED, .help = "Baked winds, of up to 12 forces each"},
     {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };
 

@@ -25,13 +25,16 @@ enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
 /* Serials and birth words are stored as differences, since they rise from slot to slot. */
 enum { RECORD_RISING = 1 << 3 | 1 << 7 };
 
+/* What a system has beside records, a table of rows for its slots each. */
+enum { HAS_SPINS = 1, HAS_WAYS = 2 };
+
 /* The contents of the head. */
 struct head {
     struct kiln_state_info info;
     uint32_t of_whole; /* of the history */
     uint32_t system_count, canvas_count;
     struct head_system {
-        uint32_t capacity, spins;
+        uint32_t capacity, rows; /* rows: HAS_SPINS, HAS_WAYS */
         uint64_t next_serial, birth_wait;
     } systems[KILN_MAX_SYSTEMS];
     struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
@@ -94,7 +97,8 @@ static void pass_head(struct cursor *c, struct head *head)
     for (uint32_t i = 0; i < head->system_count && !c->failed; i++) {
         struct head_system *system = &head->systems[i];
         pass_word(c, &system->capacity);
-        pass_word(c, &system->spins);
+        pass_word(c, &system->rows);
+        c->failed |= system->rows > (HAS_SPINS | HAS_WAYS);
         pass_long(c, &system->next_serial, 8);
         pass_long(c, &system->birth_wait, 8);
     }
@@ -115,8 +119,9 @@ static struct head head_of(const struct kiln_state *state)
                         .canvas_count = pool->canvas_count};
     for (uint32_t i = 0; i < pool->system_count; i++) {
         const struct kiln_pool_system *system = &pool->systems[i];
+        const uint32_t rows = (system->spins ? HAS_SPINS : 0u) | (system->travels ? HAS_WAYS : 0u);
         head.systems[i] = (struct head_system){.capacity = system->capacity,
-                                               .spins = pool->spins.size > 0 && system->spins,
+                                               .rows = pool->spins.size > 0 ? rows : 0,
                                                .next_serial = system->next_serial,
                                                .birth_wait = system->birth_wait};
     }
@@ -218,8 +223,10 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
         !is_hash(head->info.motion) || (head->info.history[0] && !is_hash(head->info.history)) ||
         !is_plausible(head))
         return refuse(path, "the file is damaged", error);
-    for (uint32_t i = 0; i < head->system_count; i++)
-        head->info.spins[i] = head->systems[i].spins != 0;
+    for (uint32_t i = 0; i < head->system_count; i++) {
+        head->info.spins[i] = (head->systems[i].rows & HAS_SPINS) != 0;
+        head->info.travels[i] = (head->systems[i].rows & HAS_WAYS) != 0;
+    }
     memcpy(head->info.shapes, head->canvases, sizeof head->info.shapes);
     head->info.shape_count = head->canvas_count;
     return true;
@@ -269,7 +276,8 @@ static bool visit_tables(const struct visitor *v, const struct head *head,
     size_t slots = 0, spins = 0;
     for (uint32_t i = 0; i < head->system_count; i++) {
         slots += head->systems[i].capacity;
-        spins += head->systems[i].spins ? head->systems[i].capacity : 0;
+        spins += (head->systems[i].rows & HAS_SPINS) ? head->systems[i].capacity : 0;
+        spins += (head->systems[i].rows & HAS_WAYS) ? head->systems[i].capacity : 0;
     }
     const struct kiln_table records = {places->records, slots, RECORD_WORDS, RECORD_RISING};
     const struct kiln_table turning = {places->spins, spins, SPIN_WORDS, 0};
@@ -359,7 +367,7 @@ static bool shape_pool(struct kiln_pool *pool, const struct head *head, const ch
     for (uint32_t i = 0; i < pool->system_count && fits; i++) {
         struct kiln_pool_system *system = &pool->systems[i];
         fits = head->systems[i].capacity == system->capacity &&
-               (head->systems[i].spins != 0) == system->spins;
+               head->info.spins[i] == system->spins && head->info.travels[i] == system->travels;
         system->next_serial = head->systems[i].next_serial;
         system->birth_wait = head->systems[i].birth_wait;
     }

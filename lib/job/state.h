@@ -18,6 +18,7 @@ struct kiln_state_info {
     uint64_t alive; /* number of living particles */
     /* set when a state is read: the systems whose particles spin */
     bool spins[KILN_MAX_SYSTEMS];
+    bool travels[KILN_MAX_SYSTEMS]; /* those whose particles have ways */
     /* set when a state is read: the sizes of the painted canvases */
     struct kiln_canvas_shape shapes[KILN_MAX_MESHES];
     uint32_t shape_count;

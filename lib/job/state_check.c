@@ -7,12 +7,16 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "scene/family.h"
 #include "scene/scene_births.h"
 #include "shared/derived.h"
 #include "shared/step.h"
+
+/* The most impacts that a scene lets particles count. */
+static const uint32_t MOST_HITS = 1000;
 
 /* Paint is mixed from colours of 0 to 1, and the mixture is rounded. */
 static const float MOST_PAINT = 1.001f;
@@ -47,27 +51,46 @@ static bool check_axes(const uint32_t bits[3], float most, const char *what, str
     return true;
 }
 
+/* Checks the rest of a particle that has stopped, which has the place of a velocity. */
+static void check_rest(const struct kiln_particle *p, uint32_t step, struct fault *fault)
+{
+    const uint4 rest = p->velocity_birth;
+    const uint32_t stopped = rest.x >> KILN_REST_STEP_SHIFT;
+    if (stopped < particle_birth_step(*p) || stopped > step)
+        FAULT(fault, "step of its rest: found %u, expected %u to %u", stopped,
+              particle_birth_step(*p), step);
+    else if (rest.y > KILN_MAX_COLLIDERS)
+        FAULT(fault, "object that it rides: found %u, expected 0 to %d", rest.y,
+              KILN_MAX_COLLIDERS);
+    else if (rest.z != 0)
+        FAULT(fault, "the last word of its rest: found %u, expected 0", rest.z);
+}
+
 /* Checks a particle in a slot, counted in its system. */
 static bool check_particle(const struct kiln_particle *p, const struct kiln_pool_system *system,
                            uint32_t slot, uint32_t step, struct fault *fault)
 {
     const uint4 place = p->position_serial, speed = p->velocity_birth;
     const uint32_t born = particle_birth_step(*p), serial = place.w;
-    const uint32_t flags = KILN_PARTICLE_ALIVE | KILN_PARTICLE_BOUNCED | KILN_PARTICLE_STOPPED;
-    const uint32_t unused = (1u << KILN_BIRTH_FRACTION_SHIFT) - 1u - flags;
     const float most = BITS_FLOAT(STEP_ABSURD_BITS);
     if (!particle_is_alive(*p)) {
-        if ((place.x | place.y | place.z | place.w | speed.x | speed.y | speed.z | speed.w) != 0)
+        const struct kiln_particle left = particle_remains(*p);
+        if (memcmp(&left, p, sizeof left) != 0 || (!particle_is_there(*p) && serial != 0))
             FAULT(fault, "found a dead particle that is not empty");
-    } else if ((speed.w & unused) != 0) {
-        FAULT(fault, "found the flags %u, expected 1, 3, 5 or 7", speed.w & 15u);
-    } else if (born == 0 || born > step) {
+    }
+    if (fault->text[0] != '\0' || !particle_is_there(*p))
+        return fault->text[0] == '\0';
+    if (born == 0 || born > step) {
         FAULT(fault, "step of birth: found %u, expected 1 to %u", born, step);
     } else if (serial >= system->next_serial || serial % system->capacity != slot) {
         FAULT(fault, "serial: found %u, expected one of this slot below %" PRIu64, serial,
               system->next_serial);
-    } else if (check_axes((const uint32_t[3]){place.x, place.y, place.z}, most, "position, m",
-                          fault)) {
+    } else if (particle_is_alive(*p) &&
+               check_axes((const uint32_t[3]){place.x, place.y, place.z}, most, "position, m",
+                          fault) &&
+               particle_has_stopped(*p)) {
+        check_rest(p, step, fault);
+    } else if (fault->text[0] == '\0') {
         check_axes((const uint32_t[3]){speed.x, speed.y, speed.z}, most, "velocity, m/s", fault);
     }
     return fault->text[0] == '\0';
@@ -89,6 +112,17 @@ static bool check_spin(const struct kiln_spin *spin, bool alive, struct fault *f
         FAULT(fault, "the last word of the spin: found %u, expected 0", rate.w);
     else if ((!empty || alive) && !(fabsf(square - 1.0f) < 1e-3f))
         FAULT(fault, "pose: found a squared length of %g, expected 1", (double)square);
+    return fault->text[0] == '\0';
+}
+
+/* Checks the way of a particle: three words, of which two may have any value. */
+static bool check_way(const struct kiln_spin *way, struct fault *fault)
+{
+    const uint4 a = way->rate, b = way->pose;
+    if (a.z > MOST_HITS)
+        FAULT(fault, "impacts: found %u, expected 0 to %u", a.z, MOST_HITS);
+    else if ((a.w | b.x | b.y | b.z | b.w) != 0)
+        FAULT(fault, "way: found words that are not 0");
     return fault->text[0] == '\0';
 }
 
@@ -172,7 +206,8 @@ bool kiln_state_check_pool(struct kiln_pool *pool, uint32_t step, const char *pa
             if (check_particle(particle, system, slot, step, &fault) &&
                 (!spins || !system->spins ||
                  check_spin(&spins[system->first_spin + slot], particle_is_alive(*particle),
-                            &fault)))
+                            &fault)) &&
+                (!spins || !system->travels || check_way(&spins[system->first_way + slot], &fault)))
                 continue;
             return kiln_error_set(error, KILN_INVALID_INPUT, "%s: system %u, slot %u: %s", path, i,
                                   slot, fault.text);
@@ -211,15 +246,22 @@ static void count_births(const struct kiln_scene *scene, uint32_t index, uint32_
     }
 }
 
-/* Checks that no particle of a system has been dead for a whole step. A step of tolerance is left
+/* Checks that slots of the dead are empty, unless children inherit their looks, and that no
+ * particle of a system has been dead for a whole step. A step of tolerance is left
  * to devices that round ages in their own way. */
 static bool check_ages(const struct kiln_particle *records, const struct kiln_pool_system *slots,
                        const struct kiln_scene *scene, uint32_t index, uint32_t step,
                        const char *path, struct kiln_error *error)
 {
     const struct kiln_derived_params derived = kiln_scene_derived(scene, index);
+    const bool kept = kiln_family_is_inherited(scene, index);
     for (uint32_t slot = 0; slot < slots->capacity; slot++) {
         const struct kiln_particle particle = records[slots->base + slot];
+        if (!particle_is_alive(particle) && particle_is_there(particle) && !kept)
+            return kiln_error_set(
+                error, KILN_INVALID_INPUT,
+                "%s: systems.%s, slot %u: found a dead particle that is not empty", path,
+                scene->systems[index].name, slot);
         if (!particle_is_alive(particle))
             continue;
         const float age_s = particle_age(particle, step, derived.dt_s);
@@ -230,6 +272,44 @@ static bool check_ages(const struct kiln_particle *records, const struct kiln_po
                 "%s: systems.%s, slot %u: age: found %g s, expected less than the "
                 "life of %g s",
                 path, scene->systems[index].name, slot, (double)age_s, (double)life_s);
+    }
+    return true;
+}
+
+/* Returns the number of colliders of a scene. */
+static uint32_t count_colliders(const struct kiln_scene *scene)
+{
+    const struct kiln_backdrop *backdrop = &scene->backdrop;
+    uint32_t count = kiln_backdrop_floor_collides(backdrop);
+    for (uint32_t i = 0; i < backdrop->object_count; i++)
+        count += backdrop->objects[i].collide;
+    return count;
+}
+
+/* Checks that particles have stopped only where impacts stop them, and ride objects of the scene
+ * only where these carry them. */
+static bool check_rides(const struct kiln_particle *records, const struct kiln_pool_system *slots,
+                        const struct kiln_scene *scene, uint32_t index, const char *path,
+                        struct kiln_error *error)
+{
+    const char *name = scene->systems[index].name;
+    const struct kiln_collide *collide = &scene->systems[index].collide;
+    const enum kiln_then then = collide->enabled ? collide->then : KILN_THEN_BOUNCE;
+    const uint32_t most = then == KILN_THEN_STICK ? count_colliders(scene) : 0;
+    for (uint32_t slot = 0; slot < slots->capacity; slot++) {
+        const struct kiln_particle particle = records[slots->base + slot];
+        if (!particle_has_stopped(particle))
+            continue;
+        if (then < KILN_THEN_STOP)
+            return kiln_error_set(error, KILN_INVALID_INPUT,
+                                  "%s: systems.%s, slot %u: found a particle that has stopped, "
+                                  "which nothing stops",
+                                  path, name, slot);
+        if (particle.velocity_birth.y > most)
+            return kiln_error_set(error, KILN_INVALID_INPUT,
+                                  "%s: systems.%s, slot %u: object that it rides: found %u, "
+                                  "expected 0 to %u",
+                                  path, name, slot, particle.velocity_birth.y, most);
     }
     return true;
 }
@@ -257,7 +337,8 @@ bool kiln_state_check_births(struct kiln_pool *pool, const struct kiln_scene *sc
                                   "%s: systems.%s: the wait for the next birth: found %" PRIu64
                                   ", expected %" PRIu64,
                                   path, name, slots->birth_wait, wait);
-        if (!check_ages(records, slots, scene, order[i], step, path, error))
+        if (!check_ages(records, slots, scene, order[i], step, path, error) ||
+            !check_rides(records, slots, scene, order[i], path, error))
             return false;
     }
     return true;

@@ -181,7 +181,7 @@ static bool fits(const struct kiln_scene *scene, const struct kiln_state_info *i
                (shape->slot_count == 0 || found->next < shape->slot_count);
     }
     for (uint32_t i = 0; i < scene->system_count; i++)
-        good = good && info->spins[i] == layout.spins[i];
+        good = good && info->spins[i] == layout.spins[i] && info->travels[i] == layout.travels[i];
     return good;
 }
 

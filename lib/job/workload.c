@@ -69,12 +69,33 @@ static void add_bursts(const struct kiln_workload *w, const struct kiln_emitter 
     }
 }
 
+/* Returns how many particles an emitter has borne by the metre before a time. */
+static double by_metre_before(const struct kiln_workload *w, const struct kiln_emitter *emit,
+                              double time_s)
+{
+    const double steps = time_s / (double)w->scene->dt_s + w->scene->warmup_steps;
+    if (!emit->by_way)
+        return 0.0;
+    const uint32_t step = (uint32_t)fmin(fmax(steps, 0.0), emit->way_count - 1.0);
+    return (double)emit->by_way[step] / 4294967296.0;
+}
+
+/* Returns how many children a second a particle has along its way. Its speed is taken for that of
+ * its birth. */
+static double trail_rate(const struct kiln_scene *scene, const struct kiln_parent *parent)
+{
+    const struct kiln_range *speed = &scene->systems[parent->system].emit.speed;
+    if (parent->per_metre > 0)
+        return parent->per_metre * (double)kiln_scene_value_max(scene, &speed->max);
+    return (double)kiln_scene_value_max(scene, &parent->rate);
+}
+
 /* Adds the births of a trail. The first child is born with its parent, and others from the age on
  * at which the rate gives one more. */
 static void add_trail(const struct kiln_workload *w, const struct kiln_parent *parent,
                       const struct numbers *of_parent, double *births)
 {
-    const double rate = (double)kiln_scene_value_max(w->scene, &parent->rate) * w->length_s;
+    const double rate = trail_rate(w->scene, parent) * w->length_s;
     if (rate <= 0.0)
         return;
     const uint32_t whole = (uint32_t)fmin(1.0 / rate, w->count);
@@ -97,7 +118,10 @@ static void find_births(const struct kiln_workload *w, const struct kiln_system 
     for (uint32_t i = 0; i < w->count; i++) {
         if (!parent->enabled) {
             const float rate = kiln_scene_value(w->scene, &emit->rate, (float)time_of(w, i));
-            births[i] = fmax((double)rate, 0.0) * w->length_s;
+            const double from_s = w->start_s + i * w->length_s;
+            births[i] = fmax((double)rate, 0.0) * w->length_s +
+                        by_metre_before(w, emit, from_s + w->length_s) -
+                        by_metre_before(w, emit, from_s);
             continue;
         }
         const double before = i > 0 ? of_parent->living[i - 1] : 0.0;
@@ -191,7 +215,10 @@ static double pixels_of(const struct kiln_workload *w, const struct kiln_system 
     const double away = (double)kiln_scene_camera_at(scene, time_s).distance;
     const double half = tan(0.5 * (double)kiln_scene_value(scene, &scene->camera.fov, time_s));
     const double per_metre = 0.5 * scene->height / (half * fmax(away, 1e-3));
-    const double edge = per_metre * (double)kiln_scene_value_max(scene, &system->look.size);
+    const struct kiln_parent *parent = &system->emit.parent;
+    const struct kiln_system *sized =
+        parent->enabled && parent->look.size ? &scene->systems[parent->system] : system;
+    const double edge = per_metre * (double)kiln_scene_value_max(scene, &sized->look.size);
     return fmin(edge * edge, (double)scene->width * scene->height);
 }
 

@@ -455,6 +455,7 @@ static bool read_components(struct kiln_reader *reader, const struct kiln_option
     if (node->count != 3)
         return kiln_reader_mismatch(reader, option, node);
     component.type = &kiln_type_value;
+    component.special_word = NULL; /* it stands for the whole vector */
     const struct kiln_node *item = node->first;
     for (uint32_t i = 0; i < 3; i++, item = item->next) {
         size_t before = kiln_reader_enter_index(reader, i);

@@ -83,7 +83,8 @@ extern const struct kiln_option_type kiln_type_params;  /* {amount: {number: 1, 
 /* Describes one of the kinds of items that a value may be. Each kind has members of its own. */
 struct kiln_option_kind {
     const char *name; /* NULL ends a table */
-    /* the kind is chosen by `field: variant` in the mapping; NULL: `name` alone chooses it */
+    /* the kind is chosen by `field: variant` in the mapping, or by a mapping of that name inside of
+     * it; NULL: `name` alone chooses it */
     const char *variant;
     int value;                         /* value of the enum at kind_offset */
     const struct kiln_option *members; /* rows whose offsets count from the start of the item */
@@ -169,6 +170,11 @@ static inline uint32_t kiln_option_count(const struct kiln_option *option, const
 {
     return *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
 }
+
+/* Returns the value of a key inside of a node that alone chooses among the kinds of a name, as in
+ * `wind: {grid: {...}}`; otherwise NULL. */
+const struct kiln_node *kiln_option_variant_inside(const struct kiln_option_kind *kinds,
+                                                   const char *name, const struct kiln_node *node);
 
 /* Returns the row with this name, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);

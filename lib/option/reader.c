@@ -98,6 +98,16 @@ static const struct kiln_node *find_other_name(const struct kiln_node *node, con
     return node->first;
 }
 
+/* Returns the entry of a mapping that has the name a level deeper: a path names `wind.cells` also
+ * where the file has `wind: {baked: {cells: 32}}`. Otherwise returns NULL. */
+static const struct kiln_node *find_between(const struct kiln_node *node, const char *name)
+{
+    const bool single = node->kind == KILN_NODE_MAP && node->count == 1;
+    const bool deeper = single && node->first->kind == KILN_NODE_MAP &&
+                        !kiln_node_entry(node, name) && kiln_node_entry(node->first, name);
+    return deeper ? node->first : NULL;
+}
+
 /* Sets the error to a message about the node that a path leads to, or about the last one on the way
  * that exists. */
 static void set_error_at(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
@@ -112,6 +122,11 @@ static void set_error_at(struct kiln_reader *reader, const struct kiln_node *roo
         size_t length = strcspn(path, ".");
         snprintf(part, sizeof part, "%.*s", (int)length, path);
         const char *name = part;
+        const struct kiln_node *between = find_between(node, part);
+        if (between) {
+            kiln_reader_enter(reader, between->key->text);
+            node = between;
+        }
         const struct kiln_node *next = find_part(node, &name);
         if (!next && is_numbered)
             next = find_other_name(node, &name);

@@ -1,6 +1,8 @@
 /* Implements the option type of items of several kinds, such as `cone: {angle: 8 deg}`: a mapping
  * whose one key names the kind and whose value fills the members of that kind. A kind may have a
- * shortcut, which is the member that a bare value fills: `gravity: [0, -9.81, 0]`. */
+ * shortcut, which is the member that a bare value fills: `gravity: [0, -9.81, 0]`. Of several kinds
+ * of one name, `wind: {field: baked, cells: 32}` chooses one, and so does `wind: {baked: {cells:
+ * 32}}`. */
 #include <string.h>
 
 #include "option/animated.h"
@@ -18,14 +20,29 @@ static size_t kind_names(const struct kiln_option_kind *kinds, const char *names
     return count;
 }
 
+const struct kiln_node *kiln_option_variant_inside(const struct kiln_option_kind *kinds,
+                                                   const char *name, const struct kiln_node *node)
+{
+    if (node->kind != KILN_NODE_MAP || node->count != 1)
+        return NULL;
+    for (; kinds->name; kinds++) {
+        if (kinds->variant && strcmp(kinds->name, name) == 0 &&
+            strcmp(kinds->variant, node->first->key->text) == 0)
+            return node->first;
+    }
+    return NULL;
+}
+
 /* Returns the row of the kind that the node's key names. If several kinds have that name, the key
- * `field` chooses the variant. Returns NULL with an error on failure. */
+ * `field` chooses the variant, or a key inside of the node. Returns NULL with an error on failure.
+ */
 static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
                                                 const struct kiln_option *option,
-                                                const struct kiln_node *node)
+                                                const struct kiln_node *node,
+                                                const struct kiln_node *inside)
 {
     const char *name = node->key->text;
-    const struct kiln_node *field = kiln_node_entry(node, "field");
+    const struct kiln_node *field = inside ? inside->key : kiln_node_entry(node, "field");
     const struct kiln_option_kind *first = NULL;
     const char *variants[32];
     size_t variant_count = 0;
@@ -121,11 +138,17 @@ static bool read_kind(struct kiln_reader *reader, const struct kiln_option *opti
                                  "expected one kind, found '%s' and '%s'", first, second);
     }
     const struct kiln_node *value = node->first;
-    const struct kiln_option_kind *kind = find_kind(reader, option, value);
+    const struct kiln_node *inside =
+        kiln_option_variant_inside(option->kinds, value->key->text, value);
+    const struct kiln_option_kind *kind = find_kind(reader, option, value, inside);
     if (!kind)
         return false;
     memcpy((char *)field + option->kind_offset, &kind->value, sizeof kind->value);
     size_t before = kiln_reader_enter(reader, kind->name);
+    if (inside) {
+        kiln_reader_enter(reader, kind->variant);
+        value = inside;
+    }
     if (kind->shortcut && (value->kind != KILN_NODE_MAP || kiln_node_is_animated(value)))
         value = expand_shortcut(reader, value, kind->shortcut);
     else if (kind->variant && kiln_node_entry(value, "field"))
@@ -188,6 +211,18 @@ static void describe_kind(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, ": {...}}");
 }
 
+/* Appends another way to write a variant: `wind: {grid: {...}}`. */
+static void schema_inside(const struct kiln_option_kind *kind, struct kiln_text *out)
+{
+    static const char object[] = "{\"type\": \"object\", \"additionalProperties\": false, "
+                                 "\"required\": [\"%s\"], \"properties\": {\"%s\": ";
+    kiln_text_add(out, ", ");
+    kiln_text_add(out, object, kind->name, kind->name);
+    kiln_text_add(out, object, kind->variant, kind->variant);
+    kiln_schema_members(kind->members, NULL, false, out);
+    kiln_text_add(out, "}}}}");
+}
+
 static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_text_add(out, "{\"anyOf\": [");
@@ -207,6 +242,8 @@ static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
         bool needed = kind->variant && strcmp(before, kind->name) == 0;
         kiln_schema_members(kind->members, kind->variant, needed, out);
         kiln_text_add(out, kind->shortcut ? "]}}}" : "}}");
+        if (kind->variant)
+            schema_inside(kind, out);
         before = kind->name;
     }
     kiln_text_add(out, "]}");

@@ -86,6 +86,11 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     struct kiln_value values[3];
+    if (option->special_word && kiln_node_is(node, option->special_word)) {
+        const struct kiln_value by_word = {.constant = KILN_VALUE_BY_WORD};
+        *(struct kiln_value3 *)field = (struct kiln_value3){by_word, by_word, by_word};
+        return true;
+    }
     if (!kiln_read_animated(reader, option, node, values, 3))
         return false;
     *(struct kiln_value3 *)field = (struct kiln_value3){values[0], values[1], values[2]};
@@ -95,8 +100,12 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
 static void print_vector(struct kiln_printer *printer, const struct kiln_option *option,
                          const void *field)
 {
+    const struct kiln_value *first = &((const struct kiln_value3 *)field)->x;
     kiln_text_add(&printer->text, " ");
-    kiln_print_vector(printer, option, field);
+    if (option->special_word && first->count == 0 && first->constant == KILN_VALUE_BY_WORD)
+        kiln_text_add(&printer->text, "%s", option->special_word);
+    else
+        kiln_print_vector(printer, option, field);
     kiln_text_add(&printer->text, "\n");
 }
 
@@ -111,6 +120,8 @@ static void describe_color(const struct kiln_option *option, struct kiln_text *o
     kiln_text_add(out, "[red, green, blue] or one number for grey, linear, each");
     kiln_option_describe_limits(option, out);
     kiln_text_add(out, ", or in sRGB \"#e61e28\", \"#abc\" or a name of CSS");
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 /* The schema of a colour in sRGB. Names are not listed, since each row of colours would list them.
@@ -122,8 +133,10 @@ static void schema_vector(const struct kiln_option *option, struct kiln_text *ou
 {
     bool grey = option->type == &kiln_type_color;
     struct kiln_text number = {0}, component = {0}, plain = {0};
+    struct kiln_option part = *option;
+    part.special_word = NULL; /* it stands for the whole, never for a component */
     kiln_schema_number(option, &number);
-    schema_value(option, &component);
+    schema_value(&part, &component);
     const char *item = number.data ? number.data : "";
     const char *animated = component.data ? component.data : "";
     const char *array = "{\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": %s}";

@@ -17,15 +17,14 @@ static uint64_t rate_fixed(float rate)
     return (uint64_t)((double)(rate < max_rate ? rate : max_rate) * 4294967296.0);
 }
 
-static void add_group(struct kiln_births *births, uint32_t count, uint32_t first, uint32_t spacing)
+static void add_group(struct kiln_births *births, struct kiln_birth_group group)
 {
-    if (count > UINT32_MAX - births->count)
-        count = UINT32_MAX - births->count;
-    if (count == 0 || births->group_count == KILN_MAX_BIRTH_GROUPS)
+    if (group.count > UINT32_MAX - births->count)
+        group.count = UINT32_MAX - births->count;
+    if (group.count == 0 || births->group_count == KILN_MAX_BIRTH_GROUPS)
         return;
-    births->groups[births->group_count++] =
-        (struct kiln_birth_group){.count = count, .first = first, .spacing = spacing};
-    births->count += count;
+    births->groups[births->group_count++] = group;
+    births->count += group.count;
 }
 
 static void add_rate(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
@@ -44,8 +43,32 @@ static void add_rate(const struct kiln_births_source *source, uint32_t step, uin
         count = UINT32_MAX;
     wide first = ((wide)*wait << 32) / rate_units;
     wide spacing = count > 1 ? (units_per_birth << 32) / rate_units : 0;
-    add_group(births, (uint32_t)count, (uint32_t)first, (uint32_t)spacing);
+    add_group(births, (struct kiln_birth_group){.count = (uint32_t)count,
+                                                .first = (uint32_t)first,
+                                                .spacing = (uint32_t)spacing});
     *wait = (uint64_t)((*wait + count * units_per_birth - rate_units) % units_per_birth);
+}
+
+/* Adds births by the way. The n-th one happens when the way is that of n births. */
+static void add_way(const struct kiln_births_source *source, uint32_t step,
+                    struct kiln_births *births)
+{
+    if (!source->by_way || step >= source->way_count)
+        return;
+    const uint64_t from = source->by_way[step - 1], to = source->by_way[step];
+    const uint64_t count = (to >> 32) - (from >> 32);
+    if (count == 0 || count > UINT32_MAX)
+        return;
+    const wide way = to - from;
+    const uint64_t until_first = (((from >> 32) + 1) << 32) - from;
+    const wide spacing = count > 1 ? ((wide)1 << 64) / way : 0;
+    wide first = ((wide)until_first << 32) / way;
+    if (first + (count - 1) * spacing > UINT32_MAX) /* the last one is at the very end */
+        first--;
+    add_group(births, (struct kiln_birth_group){.count = (uint32_t)count,
+                                                .first = (uint32_t)first,
+                                                .spacing = (uint32_t)spacing,
+                                                .kind = BIRTHS_BY_WAY});
 }
 
 /* Returns the number of particles of a repetition. purpose: its first random number. */
@@ -70,10 +93,12 @@ static void add_burst(const struct kiln_births_source *source, uint32_t i, uint3
     if (!(parts >= start && parts < start + 64.0))
         return;
     const uint32_t count = count_of(burst, stream, purpose);
-    if (births->group_count - (births->of_rate > 0) == KILN_MAX_BURSTS)
+    if (births->group_count - births->steady_groups == KILN_MAX_BURSTS)
         births->left_out |= count > 0;
     else
-        add_group(births, count, (uint32_t)(parts - start) << 26, 0);
+        add_group(births, (struct kiln_birth_group){.count = count,
+                                                    .first = (uint32_t)(parts - start) << 26,
+                                                    .kind = BIRTHS_BURST});
 }
 
 /* Adds the repetitions of burst number i that happen in the step. Looks at all that may: a little
@@ -111,11 +136,12 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
                       struct kiln_births *births)
 {
     births->count = 0;
-    births->of_rate = 0;
     births->left_out = false;
     births->group_count = 0;
     add_rate(source, step, wait, births);
-    births->of_rate = births->count;
+    add_way(source, step, births);
+    births->steady = births->count;
+    births->steady_groups = births->group_count;
     add_bursts(source, step, births);
 }
 

@@ -31,14 +31,19 @@ struct kiln_births_source {
     uint32_t random_key;           /* that of the system, by which bursts draw */
     uint32_t steps_num, steps_den; /* steps a second, as a fraction; not zero */
     uint32_t warmup_steps;
+    /* births by the way of the emitter: their number by the end of each step, from step 0 on, in
+     * 2^-32 births, or NULL; and how many numbers there are */
+    const uint64_t *by_way;
+    uint32_t way_count;
 };
 
 /* Lists the births of one step in order of their serials: first the births of the rate, then those
- * of each burst and each of its repetitions in the step. */
+ * of the way, then those of each burst and each of its repetitions in the step. */
 struct kiln_births {
     uint32_t count;
-    uint32_t of_rate; /* births of the rate; if there are any, they are the first group */
-    bool left_out;    /* the step has more than KILN_MAX_BURSTS bursts; those beyond are left out */
+    uint32_t steady;        /* births of the rate and of the way */
+    uint32_t steady_groups; /* the first groups, in which these are: at most 2 */
+    bool left_out; /* the step has more than KILN_MAX_BURSTS bursts; those beyond are left out */
     uint32_t group_count;
     struct kiln_birth_group groups[KILN_MAX_BIRTH_GROUPS];
 };

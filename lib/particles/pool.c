@@ -23,9 +23,12 @@ bool kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device,
         pool->systems[i] = (struct kiln_pool_system){.base = pool->slot_count,
                                                      .capacity = capacity,
                                                      .spins = layout->spins[i],
-                                                     .first_spin = spins};
+                                                     .first_spin = spins,
+                                                     .travels = layout->travels[i]};
         pool->slot_count += capacity;
         spins += layout->spins[i] ? capacity : 0;
+        pool->systems[i].first_way = spins;
+        spins += layout->travels[i] ? capacity : 0;
     }
     kiln_buffer_init(&pool->records, device,
                      (size_t)pool->slot_count * sizeof(struct kiln_particle), "particles");
@@ -52,7 +55,8 @@ void kiln_pool_finish(struct kiln_pool *pool)
 void kiln_pool_footprint(const struct kiln_pool_layout *layout, struct kiln_footprint *footprint)
 {
     for (uint32_t i = 0; i < layout->system_count; i++) {
-        const size_t spin = layout->spins[i] ? sizeof(struct kiln_spin) : 0;
+        const size_t rows = (size_t)layout->spins[i] + layout->travels[i];
+        const size_t spin = rows * sizeof(struct kiln_spin);
         kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, layout->capacities[i],
                            sizeof(struct kiln_particle) + spin);
     }

@@ -20,6 +20,8 @@ struct kiln_pool_system {
     uint64_t birth_wait;
     bool spins;          /* true: the system's particles have a spin */
     uint32_t first_spin; /* slots of this system in the buffer of spins */
+    bool travels;        /* true: they have a way, the metres that they have travelled */
+    uint32_t first_way;  /* slots of this system's ways in the same buffer */
 };
 
 struct kiln_pool {
@@ -28,8 +30,8 @@ struct kiln_pool {
     uint32_t slot_count;        /* slots of all systems */
     struct kiln_buffer records; /* struct kiln_particle [slot_count] */
 
-    /* Spins of particles: a struct kiln_spin for each slot of the systems that spin. Its size is 0
-     * if no system spins. */
+    /* Spins and ways of particles: a struct kiln_spin for each slot of the systems that spin, and
+     * one for each slot of those that travel. Its size is 0 if there are none. */
     struct kiln_buffer spins;
 
     /* Painted textures, in the order of the scene's meshes that take paint. */
@@ -42,6 +44,7 @@ struct kiln_pool_layout {
     uint32_t system_count;
     uint32_t capacities[KILN_MAX_SYSTEMS]; /* slots of each system */
     bool spins[KILN_MAX_SYSTEMS];          /* whether each system's particles have a spin */
+    bool travels[KILN_MAX_SYSTEMS];        /* whether they have a way */
     uint32_t canvas_count;
     struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
 };

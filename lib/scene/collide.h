@@ -15,7 +15,8 @@ enum kiln_collide_mode {
 enum kiln_then {
     KILN_THEN_BOUNCE,
     KILN_THEN_DIE,
-    KILN_THEN_STOP, /* it rests in the world where it hit, until its life ends */
+    KILN_THEN_STOP,  /* it rests in the world where it hit, until its life ends */
+    KILN_THEN_STICK, /* it rides the object that it hit, until its life ends */
 };
 
 struct kiln_collide {

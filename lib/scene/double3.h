@@ -22,4 +22,14 @@ static inline void double3_cross(double y[3], const double a[3], const double b[
     y[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* Rotates v by a unit quaternion (x, y, z, w). y may be neither of them. */
+static inline void double3_rotate(double y[3], const double turn[4], const double v[3])
+{
+    double across[3], more[3];
+    double3_cross(across, turn, v);
+    double3_cross(more, turn, across);
+    for (int c = 0; c < 3; c++)
+        y[c] = v[c] + 2 * (turn[3] * across[c] + more[c]);
+}
+
 #endif

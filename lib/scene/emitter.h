@@ -10,6 +10,8 @@
 #include "particles/births.h"
 #include "scene/node.h"
 
+struct kiln_source;
+
 enum kiln_emitter_shape {
     KILN_EMITTER_POINT,
     KILN_EMITTER_SPHERE,
@@ -18,12 +20,38 @@ enum kiln_emitter_shape {
     KILN_EMITTER_CONE,
     KILN_EMITTER_LINE,
     KILN_EMITTER_RING, /* the rim of a disc */
+    KILN_EMITTER_MESH,
+    KILN_EMITTER_IMAGE,
+    KILN_EMITTER_PATH,
+};
+
+/* What of a mesh particles are born on. */
+enum kiln_source_on {
+    KILN_ON_SURFACE,
+    KILN_ON_VERTICES,
+    KILN_ON_VOLUME, /* in it */
+};
+
+/* A mesh, an image or a path that particles are born on (scene/source.h). */
+struct kiln_emit_source {
+    const char *file;   /* an absolute path; NULL: none */
+    const char *object; /* mesh: name or number of an object, as written; NULL: none */
+    enum kiln_source_on on;
+    struct kiln_value3 rotation;    /* rad, mesh: about x, then y, then z; constant */
+    double scale;                   /* mesh: metres in one unit of the file */
+    double width;                   /* m: image */
+    double threshold;               /* image: pixels count from here on */
+    struct kiln_path path;          /* points and closed */
+    bool of_object;                 /* follows */
+    uint32_t number;                /* follows: that of the object */
+    float edge;                     /* follows: m, of a pixel or a column */
+    const struct kiln_source *made; /* follows; NULL: there is none */
 };
 
 enum kiln_event {
     KILN_EVENT_DEATH,  /* the end of the parent's life */
-    KILN_EVENT_BOUNCE, /* the parent's first impact */
-    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly */
+    KILN_EVENT_BOUNCE, /* the parent's first impact, or each one */
+    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly in time or along its way */
 };
 
 enum kiln_align {
@@ -33,37 +61,52 @@ enum kiln_align {
 };
 
 /* Births of particles from particles of another system: shared/family.h. */
+/* What children have of the look of their parent at their birth, instead of their own. */
+struct kiln_inherited {
+    bool color, size, temperature;
+};
+
 struct kiln_parent {
     bool enabled;
     const char *name;
     uint32_t system; /* index of that system */
     enum kiln_event event;
     enum kiln_align align;
-    uint32_t count[2];      /* death, bounce: the fewest and the most children of one parent */
-    bool impact;            /* death: a death at an impact counts as well */
+    uint32_t count[2]; /* death, bounce: the fewest and the most children of one event */
+    bool impact;       /* death: a death at an impact counts as well */
+    bool every;        /* bounce: each of the first `hits` impacts has children */
+    uint32_t hits;
     struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
-    uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
+    double per_metre;       /* trail: children a metre of the parent's way; 0: by the rate */
+    uint32_t most;          /* trail by the metre: the most children of one parent */
+    struct kiln_inherited look;
+    uint32_t slots; /* slots for the children of one parent: above 0 when enabled */
 };
 
 struct kiln_emitter {
     struct kiln_parent parent; /* if enabled, there are no births by rate or in bursts */
     struct kiln_value rate;    /* particles a second; clock constant or time */
+    double per_metre;          /* particles a metre of the emitter's way */
+    const uint64_t *by_way;    /* follows from it: see struct kiln_births_source; or NULL */
+    uint32_t way_count;
     struct kiln_burst bursts[KILN_MAX_BURSTS];
     uint32_t burst_count;
     struct kiln_range life;  /* s, at birth */
     struct kiln_range speed; /* m/s, at birth */
     enum kiln_emitter_shape shape;
-    struct kiln_attach attach;    /* the shape lies in this node */
-    struct kiln_value3 origin;    /* m: centre of the shape, apex disc's centre of a cone */
-    struct kiln_value3 direction; /* need not be normalised; not zero unless outward */
-    struct kiln_value angle;      /* rad: half angle of the directions about `direction`, 0..pi */
-    bool outward;                 /* sphere: directions point away from the origin instead */
-    bool surface;                 /* sphere, box, disc: births on the surface or rim alone */
-    struct kiln_value radius;     /* m: sphere, disc, base of the cone */
-    struct kiln_value3 size;      /* m: box, full edges; line, from its first end to its last */
-    uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
-    struct kiln_value turn;       /* rad/s: of the shape about its direction */
-    struct kiln_value inherit;    /* part of the velocity of emitter or parent */
+    struct kiln_attach attach;      /* the shape lies in this node */
+    struct kiln_value3 origin;      /* m: centre of the shape, apex disc's centre of a cone */
+    struct kiln_value3 direction;   /* need not be normalised; not zero unless outward */
+    struct kiln_value angle;        /* rad: half angle of the directions about `direction`, 0..pi */
+    bool outward;                   /* sphere: directions point away from the origin instead */
+    bool surface;                   /* sphere, box, disc: births on the surface or rim alone */
+    struct kiln_value radius;       /* m: sphere, disc, base of the cone */
+    struct kiln_value3 size;        /* m: box, full edges; line, from its first end to its last */
+    uint32_t nozzles;               /* line: places that births take in turn; 0: anywhere on it */
+    bool ordered;                   /* line, ring, path: the births of a burst follow one another */
+    struct kiln_emit_source source; /* mesh, image, path */
+    struct kiln_value turn;         /* rad/s: of the shape about its direction */
+    struct kiln_value inherit;      /* part of the velocity of emitter or parent */
 };
 
 #endif

@@ -19,6 +19,50 @@ bool kiln_family_has_children(const struct kiln_scene *scene, uint32_t system)
     return false;
 }
 
+uint32_t kiln_family_counted_hits(const struct kiln_scene *scene, uint32_t system)
+{
+    uint32_t hits = 1;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_parent *parent = &scene->systems[i].emit.parent;
+        if (scene->systems[i].enabled && parent->enabled && parent->system == system &&
+            parent->event == KILN_EVENT_BOUNCE && parent->every)
+            hits = parent->hits > hits ? parent->hits : hits;
+    }
+    return hits;
+}
+
+/* Returns whether children are born by the metre of their parent's way. */
+static bool is_by_way(const struct kiln_parent *parent)
+{
+    return parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0;
+}
+
+bool kiln_family_travels(const struct kiln_scene *scene, uint32_t system)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_parent *parent = &scene->systems[i].emit.parent;
+        any = any || (scene->systems[i].enabled && parent->enabled && parent->system == system &&
+                      is_by_way(parent));
+    }
+    return any || kiln_family_counted_hits(scene, system) > KILN_PARTICLE_MOST_HITS;
+}
+
+bool kiln_family_inherits(const struct kiln_system *system)
+{
+    const struct kiln_inherited *look = &system->emit.parent.look;
+    return system->emit.parent.enabled && (look->color || look->size || look->temperature);
+}
+
+bool kiln_family_is_inherited(const struct kiln_scene *scene, uint32_t system)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        any = any || (scene->systems[i].enabled && kiln_family_inherits(&scene->systems[i]) &&
+                      scene->systems[i].emit.parent.system == system);
+    return any;
+}
+
 /* Returns a system's generation: 1 without a parent, else that of the parent + 1. */
 static uint32_t generation(const struct kiln_scene *scene, uint32_t system)
 {
@@ -70,8 +114,12 @@ static double most_of_a_life(const struct kiln_scene *scene, const struct kiln_v
 
 uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_parent *parent)
 {
+    if (parent->event == KILN_EVENT_BOUNCE && parent->every)
+        return (uint64_t)parent->count[1] * parent->hits;
     if (parent->event != KILN_EVENT_TRAIL)
         return parent->count[1];
+    if (is_by_way(parent))
+        return parent->most;
     /* child j is born if the float sum * life, which rises with the life, passes j */
     double sum = most_of_a_life(scene, &parent->rate);
     double most = sum * (double)longest_life_s(scene, parent->system) * (1 + 0x1p-20);
@@ -169,13 +217,19 @@ static bool check_births(struct kiln_reader *reader, const struct kiln_node *roo
         return kiln_reader_error_at(
             reader, root, path,
             "must be 0 for a system with a parent; emit.parent.on sets the number of births");
+    snprintf(path, sizeof path, "systems.%s.emit.per_metre", system->name);
+    if (system->emit.per_metre > 0)
+        return kiln_reader_error_at(
+            reader, root, path,
+            "must be 0 for a system with a parent; emit.parent.on sets the number of births");
     snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
     if (system->emit.burst_count > 0)
         return kiln_reader_error_at(
             reader, root, path,
             "must be {} for a system with a parent; emit.parent.on sets the number of births");
     snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
-    if (parent->event == KILN_EVENT_TRAIL && kiln_scene_value_max(scene, &parent->rate) <= 0)
+    if (parent->event == KILN_EVENT_TRAIL && !is_by_way(parent) &&
+        kiln_scene_value_max(scene, &parent->rate) <= 0)
         return kiln_reader_error_at(reader, root, path,
                                     "the rate is 0 at all times; it must be above 0");
     if (parent->event == KILN_EVENT_BOUNCE && !born_of->collide.enabled)
@@ -183,6 +237,63 @@ static bool check_births(struct kiln_reader *reader, const struct kiln_node *roo
                                     "particles of '%s' never bounce: set systems.%s.collide",
                                     born_of->name, born_of->name);
     return true;
+}
+
+/* Checks one value of the look that children have from their parent. name: its key; uses: what the
+ * parent's value uses; twice: the parent has it from its own parent. */
+static bool check_inherited(struct kiln_reader *reader, const struct kiln_node *root,
+                            const struct kiln_system *system, const char *name, uint32_t uses,
+                            bool twice)
+{
+    const uint32_t of_moments = 1u << KILN_CLOCK_SPEED | 1u << KILN_CLOCK_HEIGHT |
+                                1u << KILN_CLOCK_DISTANCE | KILN_VALUE_USES_OWN_NOISE |
+                                KILN_VALUE_OF_TIME;
+    const char *parent = kiln_reader_scene(reader)->systems[system->emit.parent.system].name;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.inherit.%s", system->name, name);
+    if (twice)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be false, since particles of '%s' have no %s of their "
+                                    "own",
+                                    parent, name);
+    if (uses & of_moments)
+        return kiln_reader_error_at(reader, root, path,
+                                    "systems.%s.look.%s must be constant or vary over life, age or "
+                                    "random numbers, since others inherit it",
+                                    parent, name);
+    return true;
+}
+
+/* Checks what children have of their parent's look. */
+static bool check_looks(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_system *system = &scene->systems[index];
+    const struct kiln_inherited *has = &system->emit.parent.look;
+    const struct kiln_system *parent = &scene->systems[system->emit.parent.system];
+    const struct kiln_inherited of_parent =
+        parent->emit.parent.enabled ? parent->emit.parent.look : (struct kiln_inherited){false};
+    const struct kiln_interaction *collide =
+        kiln_scene_interaction(scene, index, KILN_INTERACT_COLLIDE);
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.inherit.color", system->name);
+    if (has->color && system->paint.enabled)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be false for a system that paints with its own color");
+    snprintf(path, sizeof path, "systems.%s.emit.parent.inherit.size", system->name);
+    if (has->size && collide && collide->as_drawn)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be false where particles collide as they are drawn");
+    return (!has->color ||
+            check_inherited(reader, root, system, "color",
+                            kiln_value3_uses(scene->keys, &parent->look.color), of_parent.color)) &&
+           (!has->size ||
+            check_inherited(reader, root, system, "size",
+                            kiln_value_uses(scene->keys, &parent->look.size), of_parent.size)) &&
+           (!has->temperature ||
+            check_inherited(reader, root, system, "temperature",
+                            kiln_value_uses(scene->keys, &parent->look.temperature),
+                            of_parent.temperature));
 }
 
 static bool settle_slots(struct kiln_reader *reader, const struct kiln_node *root,
@@ -210,7 +321,7 @@ bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root
         struct kiln_system *system = &scene->systems[i];
         if (system->emit.parent.enabled)
             ok = check_generations(reader, root, i) && check_births(reader, root, system) &&
-                 settle_slots(reader, root, system);
+                 check_looks(reader, root, i) && settle_slots(reader, root, system);
     }
     return ok;
 }

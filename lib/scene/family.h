@@ -11,6 +11,19 @@ struct kiln_node;
 /* Returns whether a system is the parent of a system that is enabled. */
 bool kiln_family_has_children(const struct kiln_scene *scene, uint32_t system);
 
+/* Returns how many impacts the particles of a system count: up to the last that has children, at
+ * least 1. */
+uint32_t kiln_family_counted_hits(const struct kiln_scene *scene, uint32_t system);
+
+/* Returns whether a system's particles have ways: children by the metre, or of more impacts than a
+ * birth word counts. */
+bool kiln_family_travels(const struct kiln_scene *scene, uint32_t system);
+
+/* Returns whether particles of a system inherit something of their parent's look, and whether those
+ * of a system have children that do. */
+bool kiln_family_inherits(const struct kiln_system *system);
+bool kiln_family_is_inherited(const struct kiln_scene *scene, uint32_t system);
+
 /* Fills order[] with all systems, parents before their children. */
 void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_SYSTEMS]);
 

@@ -17,6 +17,7 @@ enum kiln_force_kind {
     KILN_FORCE_FIELD = FORCE_FIELD, /* air velocities of a file */
     KILN_FORCE_ATTRACT = FORCE_ATTRACT, /* a point that attracts, or repels */
     KILN_FORCE_VORTEX = FORCE_VORTEX,   /* air that turns around an axis */
+    KILN_FORCE_BAKED = FORCE_BAKED,     /* the sum of other forces, at the points of a grid */
 };
 
 enum kiln_falloff {
@@ -46,25 +47,36 @@ struct kiln_force_region {
     struct kiln_value3 ball_center;
     struct kiln_value radius;  /* m: of the ball */
     struct kiln_value falloff; /* m: over which the force fades, inside of the border */
+    struct kiln_attach attach; /* the region lies in this node; no name: in that of the force */
+};
+
+struct kiln_force;
+
+/* Forces that a baked wind sums up. */
+struct kiln_baked_forces {
+    struct kiln_force *at; /* the scene's arena owns them */
+    uint32_t count;        /* 1..KILN_MAX_BAKED_OF */
 };
 
 /* The options of all kinds of force; a kind uses some. In a union, the first member is the name
  * that kernels know, and the others are the same memory by the names of kinds. Each step copies all
- * options into struct kiln_force_params (force_at_time in sim/world/params.c), from which kernels
+ * options into struct kiln_force_params (sim/world/force_params.c), from which kernels
  * read them. */
 struct kiln_force {
     enum kiln_force_kind kind;
-    struct kiln_attach attach; /* attract, vortex: place, axis and radius lie in this node */
+    struct kiln_attach attach; /* the force, and its region, lie in this node */
     union {
         struct kiln_value3 vector;
         struct kiln_value3 acceleration; /* gravity: m/s^2 */
         struct kiln_value3 air;          /* wind: velocity, m/s */
         struct kiln_value3 center;       /* attract: the point; vortex: a point of the axis; m */
+        struct kiln_value3 box_center;   /* baked: of the box, m: constant */
     };
     union {
         struct kiln_value3 second;
-        struct kiln_value3 drift; /* curl: velocity of the noise field, m/s */
-        struct kiln_value3 axis;  /* vortex: its direction, of any length */
+        struct kiln_value3 drift;    /* curl: velocity of the noise field, m/s */
+        struct kiln_value3 axis;     /* vortex: its direction, of any length */
+        struct kiln_value3 box_size; /* baked: edges of the box, m: constant */
     };
     union {
         /* curl: velocity of the air, m/s; field: a factor; attract: acceleration at 1 m, m/s^2,
@@ -87,7 +99,10 @@ struct kiln_force {
     };
     enum kiln_wind_mode mode; /* how moving air acts */
     struct kiln_force_region region;
-    const char *file; /* field: an absolute path (asset/geometry/grid_in.h) */
+    const char *file;            /* field: an absolute path (asset/geometry/grid_in.h) */
+    uint32_t cells;              /* baked: along the longest edge of the box */
+    uint32_t every;              /* baked: steps from one writing to the next */
+    struct kiln_baked_forces of; /* baked */
 };
 
 #endif

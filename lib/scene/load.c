@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "asset/geometry/rig.h"
 #include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/clock.h"
@@ -16,6 +17,7 @@
 #include "base/hash.h"
 #include "base/sized.h"
 #include "scene/asset_path.h"
+#include "scene/baked.h"
 #include "scene/fast_nodes.h"
 #include "scene/light_notes.h"
 #include "scene/mesh_notes.h"
@@ -24,6 +26,7 @@
 #include "scene/place.h"
 #include "scene/resolve.h"
 #include "scene/small_steps.h"
+#include "scene/source.h"
 #include "scene/validate.h"
 #include "scene/work.h"
 
@@ -79,11 +82,17 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
             (!look->motion_layout || kiln_asset_add_hash(scene, look->motion_layout, &text, error));
         if (look->shape == KILN_SHAPE_MESH)
             kiln_text_add(&text, "%s\n", look->mesh.shown->hash);
-        for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)
-            if (scene->systems[i].forces[k].kind == KILN_FORCE_FIELD)
-                read = kiln_asset_add_hash(scene, scene->systems[i].forces[k].file, &text, error);
+        const struct kiln_force *force;
+        for (uint32_t k = 0; read && (force = kiln_system_force(&scene->systems[i], k)); k++)
+            if (force->kind == KILN_FORCE_FIELD)
+                read = kiln_asset_add_hash(scene, force->file, &text, error);
     }
-    read = read && (!ok || add_backdrop_hashes(scene, &text, error));
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (scene->nodes[i].file)
+            kiln_text_add(&text, "%s\n", kiln_rig_hash(scene->nodes[i].rig));
+    }
+    read = read && (!ok || (add_backdrop_hashes(scene, &text, error) &&
+                            kiln_sources_add_hashes(scene, false, &text, error)));
     ok = ok && !text.failed;
     if (ok)
         kiln_hash_sha256(text.data, text.length, scene->hash);

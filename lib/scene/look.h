@@ -124,6 +124,17 @@ struct kiln_look {
     bool light_shadow;           /* objects hide them */
 };
 
+/* Returns whether a colour of a look is that of the mesh or image where a particle was born. */
+static inline bool kiln_color_is_source(const struct kiln_value3 *color)
+{
+    return color->x.count == 0 && color->x.constant == KILN_VALUE_BY_WORD;
+}
+
+static inline bool kiln_look_color_is_source(const struct kiln_look *look)
+{
+    return kiln_color_is_source(&look->color);
+}
+
 /* Returns whether particles are solid, with other particles in front of or behind them. */
 static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 {

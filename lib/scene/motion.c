@@ -4,15 +4,29 @@
  * however they look.
  *
  * The text that is hashed consists of the part's options, printed as a scene, KILN_STATE_VERSION,
- * the capacity of each system, and the hashes of wind files and of meshes and terrain that
- * particles hit. The hash of a mesh is that of its file, so it is followed by the version of the
- * readers of meshes. tests/unit/test_motion.c changes every option, and checks that the hash
- * changes where the particles' state does. */
+ * the capacity of each system, and the hashes of wind files, of meshes and terrain that particles
+ * hit, and of files whose nodes matter to the part. The hash of a mesh is that of its file, so it
+ * is followed by the version of the readers of meshes. tests/unit/test_motion.c changes every
+ * option, and checks that the hash changes where the particles' state does. */
 #include "scene/motion.h"
 
+#include "asset/geometry/rig.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
+#include "scene/baked.h"
+#include "scene/source.h"
+
+/* Adds the hashes of the files whose nodes move what belongs to a part. */
+static void add_node_files(struct kiln_text *text, const struct kiln_scene *scene,
+                           enum kiln_scene_part part)
+{
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (kiln_row_if_node_is_of_file(scene, &scene->nodes[i]) & part)
+            kiln_text_add(text, "%s read %d\n", kiln_rig_hash(scene->nodes[i].rig),
+                          KILN_MESH_READER_VERSION);
+    }
+}
 
 /* Adds the hashes of the wind files of field forces, and of the meshes and terrain that particles
  * hit. Both parts have them. */
@@ -21,9 +35,10 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
-        for (uint32_t k = 0; k < system->force_count; k++) {
-            if (system->forces[k].kind == KILN_FORCE_FIELD &&
-                !kiln_asset_add_hash(scene, system->forces[k].file, text, error))
+        const struct kiln_force *force;
+        for (uint32_t k = 0; (force = kiln_system_force(system, k)) != NULL; k++) {
+            if (force->kind == KILN_FORCE_FIELD &&
+                !kiln_asset_add_hash(scene, force->file, text, error))
                 return false;
         }
     }
@@ -37,7 +52,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
                  !kiln_asset_add_hash(scene, object->file, text, error))
             return false;
     }
-    return true;
+    return kiln_sources_add_hashes(scene, true, text, error);
 }
 
 bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part part, char hex[65],
@@ -48,6 +63,7 @@ bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part p
     kiln_text_add(&text, "version %d\n", KILN_STATE_VERSION);
     for (uint32_t i = 0; i < scene->system_count; i++)
         kiln_text_add(&text, "slots %u\n", scene->systems[i].capacity);
+    add_node_files(&text, scene, part);
     const bool files_ok = !ok || add_files(&text, scene, error);
     ok = ok && !text.failed;
     if (ok)

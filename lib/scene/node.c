@@ -1,13 +1,14 @@
-/* This file computes the frames of nodes, and takes what is attached to a node to the world.
+/* This file computes the frames of nodes.
  *
- * A frame is the product of those of its chain of parents. Its rates follow from those of values
- * and paths by the rules of differentiation, so that a simulation knows the way of a node between
- * two steps to the fourth order. */
+ * A frame is the product of those of its chain of parents, and of the pose that a file of nodes
+ * has. Its rates follow from those of values and paths by the rules of differentiation, so that a
+ * simulation knows the way of a node between two steps to the fourth order. */
 #include "scene/node.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "asset/geometry/rig.h"
 #include "base/matrix.h"
 #include "scene/double3.h"
 #include "scene/node_cache.h"
@@ -16,16 +17,6 @@
 #include "shared/random.h"
 
 /* ---- quaternions: x, y, z, w ----------------------------------------------------------------- */
-
-/* Rotates v by a unit quaternion. */
-static void rotate(double y[3], const double turn[4], const double v[3])
-{
-    double across[3], more[3];
-    double3_cross(across, turn, v);
-    double3_cross(more, turn, across);
-    for (int c = 0; c < 3; c++)
-        y[c] = v[c] + 2 * (turn[3] * across[c] + more[c]);
-}
 
 /* Computes the rotation by b, then by a. y may be neither of them. */
 static void multiply(double y[4], const double a[4], const double b[4])
@@ -138,8 +129,8 @@ static void set_rotation(struct kiln_node_frame *frame, const struct moments *m,
     about_axis(about_z, 2, exact_sincos(0.5f * angles.z));
     about_axis(y, 1, exact_sincos(0.5f * angles.y));
     multiply(about_both, about_z, y);
-    rotate(of_y, about_z, (const double[3]){0, (double)rates.y, 0});
-    rotate(of_x, about_both, (const double[3]){(double)rates.x, 0, 0});
+    double3_rotate(of_y, about_z, (const double[3]){0, (double)rates.y, 0});
+    double3_rotate(of_x, about_both, (const double[3]){(double)rates.x, 0, 0});
     for (int c = 0; c < 3; c++)
         frame->spin[c] = of_x[c] + of_y[c] + (c == 2 ? (double)rates.z : 0);
 }
@@ -153,17 +144,38 @@ static void set_heading(struct kiln_node_frame *frame, const struct kiln_path_pl
     multiply(heading, along, TO_Z[ahead]);
     memcpy(inside, frame->turn, sizeof inside);
     multiply(frame->turn, heading, inside);
-    rotate(spin, heading, frame->spin);
+    double3_rotate(spin, heading, frame->spin);
     for (int c = 0; c < 3; c++)
         frame->spin[c] = spin[c] + place->spin[c];
 }
 
-/* Returns the frame of a node in that of its parent. */
-static struct kiln_node_frame own_frame(const struct kiln_scene_node *node, const struct moments *m)
+/* Returns the frame of a place, a rotation by angles and a scale. */
+static struct kiln_node_frame frame_of(const struct moments *m, const struct kiln_value3 *position,
+                                       const struct kiln_value3 *rotation,
+                                       const struct kiln_value *scale)
 {
-    struct kiln_node_frame frame = {.scale = (double)value_at(m->keys, node->scale, m->now),
-                                    .growth = (double)rate_of(m, &node->scale)};
-    set_rotation(&frame, m, &node->rotation);
+    const float3 at = value3_at(m->keys, *position, m->now), velocity = rates_of(m, position);
+    struct kiln_node_frame frame = {
+        .at = {(double)at.x, (double)at.y, (double)at.z},
+        .velocity = {(double)velocity.x, (double)velocity.y, (double)velocity.z},
+        .scale = (double)value_at(m->keys, *scale, m->now),
+        .growth = (double)rate_of(m, scale),
+    };
+    set_rotation(&frame, m, rotation);
+    return frame;
+}
+
+/* Returns the frame in its parent that a node would have without its file. */
+static struct kiln_node_frame frame_of_keys(const struct kiln_scene *scene,
+                                            const struct kiln_scene_node *node,
+                                            const struct moments *m)
+{
+    if (node->mesh) {
+        const struct kiln_object *object = &scene->backdrop.objects[node->object];
+        return frame_of(m, &object->center, &object->rotation, &object->scale);
+    }
+    struct kiln_node_frame frame =
+        frame_of(m, &node->position.value, &node->rotation, &node->scale);
     if (node->position.path.points.count > 0) {
         const struct kiln_path_place place =
             kiln_path_at(&node->position.path, m->now.time_s, m->rates.time_s);
@@ -171,14 +183,31 @@ static struct kiln_node_frame own_frame(const struct kiln_scene_node *node, cons
         memcpy(frame.velocity, place.velocity, sizeof frame.velocity);
         if (node->heading == KILN_HEADING_PATH)
             set_heading(&frame, &place, node->ahead);
-        return frame;
     }
-    const float3 at = value3_at(m->keys, node->position.value, m->now);
-    const float3 velocity = rates_of(m, &node->position.value);
-    memcpy(frame.at, (const double[3]){(double)at.x, (double)at.y, (double)at.z}, sizeof frame.at);
-    memcpy(frame.velocity,
-           (const double[3]){(double)velocity.x, (double)velocity.y, (double)velocity.z},
-           sizeof frame.velocity);
+    return frame;
+}
+
+/* Returns the frame of a node of a file in the file's space. */
+static struct kiln_node_frame frame_of_file(const struct kiln_scene *scene, uint32_t node,
+                                            const struct moments *m)
+{
+    const struct kiln_animation *animation = kiln_node_animation(scene, node);
+    struct kiln_rig_moment moment = {.clip = KILN_RIG_AT_REST};
+    if (animation)
+        moment = (struct kiln_rig_moment){
+            .clip = animation->number,
+            .seconds = kiln_scene_animation_s(animation, m->now.time_s),
+            .rate_seconds = kiln_scene_animation_s(animation, m->rates.time_s),
+            .rate_is_behind = animation->speed.constant < 0.0f,
+            .clip_s_each_s = (double)kiln_scene_animation_speed(animation, m->rates.time_s),
+        };
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    const struct kiln_rig_pose pose = kiln_rig_pose_at(n->rig, n->rig_node, &moment);
+    struct kiln_node_frame frame = {.scale = pose.scale, .growth = pose.growth};
+    memcpy(frame.at, pose.at, sizeof frame.at);
+    memcpy(frame.velocity, pose.velocity, sizeof frame.velocity);
+    memcpy(frame.spin, pose.spin, sizeof frame.spin);
+    turn_of_frame(frame.turn, pose.ahead, pose.up);
     return frame;
 }
 
@@ -190,11 +219,11 @@ static struct kiln_node_frame inside_of(const struct kiln_node_frame *parent,
                                     .growth =
                                         parent->growth * own->scale + parent->scale * own->growth};
     double at[3], moved[3], carried[3], spin[3], inside[3];
-    rotate(at, parent->turn, own->at);
-    rotate(spin, parent->turn, own->spin);
+    double3_rotate(at, parent->turn, own->at);
+    double3_rotate(spin, parent->turn, own->spin);
     for (int c = 0; c < 3; c++)
         inside[c] = parent->growth * own->at[c] + parent->scale * own->velocity[c];
-    rotate(moved, parent->turn, inside);
+    double3_rotate(moved, parent->turn, inside);
     for (int c = 0; c < 3; c++)
         at[c] *= parent->scale;
     double3_cross(carried, parent->spin, at);
@@ -205,6 +234,18 @@ static struct kiln_node_frame inside_of(const struct kiln_node_frame *parent,
     }
     multiply(frame.turn, parent->turn, own->turn);
     return frame;
+}
+
+/* Returns the frame of a node in that of its parent. */
+static struct kiln_node_frame own_frame(const struct kiln_scene *scene, uint32_t node,
+                                        const struct moments *m)
+{
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    const struct kiln_node_frame outer = frame_of_keys(scene, n, m);
+    if (!n->rig)
+        return outer;
+    const struct kiln_node_frame inner = frame_of_file(scene, node, m);
+    return inside_of(&outer, &inner);
 }
 
 static struct moments moments_at(const struct kiln_scene *scene, float time_s, float rate_s)
@@ -223,7 +264,7 @@ static struct kiln_node_frame known_frame(const struct kiln_scene *scene, uint32
     struct kiln_node_frame frame;
     if (cache && kiln_node_cache_find(cache, KILN_NODE_FRAME_OWN, node, time_s, rate_s, &frame))
         return frame;
-    frame = own_frame(&scene->nodes[node], m);
+    frame = own_frame(scene, node, m);
     if (cache)
         kiln_node_cache_keep(cache, KILN_NODE_FRAME_OWN, node, time_s, rate_s, &frame);
     return frame;
@@ -238,14 +279,28 @@ struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32
         return frame;
     const struct moments m = moments_at(scene, time_s, rate_s);
     frame = known_frame(scene, node, &m);
-    for (const struct kiln_attach *parent = &scene->nodes[node].parent; parent->name;
-         parent = &scene->nodes[parent->node].parent) {
+    for (const struct kiln_attach *parent = kiln_node_outer(scene, node); parent->name;
+         parent = kiln_node_outer(scene, parent->node)) {
         const struct kiln_node_frame outer = known_frame(scene, parent->node, &m);
         frame = inside_of(&outer, &frame);
     }
     if (cache)
         kiln_node_cache_keep(cache, KILN_NODE_FRAME_WORLD, node, time_s, rate_s, &frame);
     return frame;
+}
+
+struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
+                                            const struct kiln_object *object, float time_s,
+                                            float rate_s)
+{
+    const struct moments m = moments_at(scene, time_s, rate_s);
+    const struct kiln_node_frame frame =
+        frame_of(&m, &object->center, &object->rotation, &object->scale);
+    if (!object->attach.name)
+        return frame;
+    const struct kiln_node_frame outer =
+        kiln_node_frame_at(scene, object->attach.node, time_s, rate_s);
+    return inside_of(&outer, &frame);
 }
 
 /* ---- steps ----------------------------------------------------------------------------------- */
@@ -325,23 +380,35 @@ static bool go_on(const struct kiln_node_frame *start, struct kiln_node_frame *e
     return place || turn || scale;
 }
 
-struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t node,
-                                        uint32_t step)
+/* The moments of a step, and its length, s. */
+struct step_moments {
+    struct moments first, last;
+    double dt_s;
+};
+
+static struct step_moments moments_of(const struct kiln_scene *scene, uint32_t step)
 {
-    const double dt_s = (double)scene->rate.den / (double)scene->rate.num;
     const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
-    const struct moments first = moments_at(scene, start_s, start_s);
-    const struct moments last = moments_at(scene, end_s, nextafterf(end_s, -INFINITY));
-    struct kiln_node_step found = {.start = known_frame(scene, node, &first),
-                                   .end = known_frame(scene, node, &last)};
-    found.on = found.end;
-    found.jumps = go_on(&found.start, &found.on, dt_s);
-    for (const struct kiln_attach *parent = &scene->nodes[node].parent; parent->name;
-         parent = &scene->nodes[parent->node].parent) {
-        const struct kiln_node_frame start = known_frame(scene, parent->node, &first);
-        const struct kiln_node_frame end = known_frame(scene, parent->node, &last);
+    return (struct step_moments){
+        .first = moments_at(scene, start_s, start_s),
+        .last = moments_at(scene, end_s, nextafterf(end_s, -INFINITY)),
+        .dt_s = (double)scene->rate.den / (double)scene->rate.num,
+    };
+}
+
+/* Returns the frames in the world of what has two frames in a node, or in the world itself. */
+static struct kiln_node_step step_in(const struct kiln_scene *scene,
+                                     const struct kiln_attach *outer, const struct step_moments *m,
+                                     const struct kiln_node_frame *first,
+                                     const struct kiln_node_frame *last)
+{
+    struct kiln_node_step found = {.start = *first, .end = *last, .on = *last};
+    found.jumps = go_on(first, &found.on, m->dt_s);
+    for (; outer->name; outer = kiln_node_outer(scene, outer->node)) {
+        const struct kiln_node_frame start = known_frame(scene, outer->node, &m->first);
+        const struct kiln_node_frame end = known_frame(scene, outer->node, &m->last);
         struct kiln_node_frame on = end;
-        found.jumps |= go_on(&start, &on, dt_s);
+        found.jumps |= go_on(&start, &on, m->dt_s);
         found.start = inside_of(&start, &found.start);
         found.end = inside_of(&end, &found.end);
         found.on = inside_of(&on, &found.on);
@@ -349,130 +416,67 @@ struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t
     return found;
 }
 
+struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t node,
+                                        uint32_t step)
+{
+    const struct step_moments m = moments_of(scene, step);
+    const struct kiln_node_frame first = known_frame(scene, node, &m.first);
+    const struct kiln_node_frame last = known_frame(scene, node, &m.last);
+    return step_in(scene, kiln_node_outer(scene, node), &m, &first, &last);
+}
+
+struct kiln_node_step kiln_object_step_at(const struct kiln_scene *scene,
+                                          const struct kiln_object *object, uint32_t step)
+{
+    const struct step_moments m = moments_of(scene, step);
+    const struct kiln_node_frame first =
+        frame_of(&m.first, &object->center, &object->rotation, &object->scale);
+    const struct kiln_node_frame last =
+        frame_of(&m.last, &object->center, &object->rotation, &object->scale);
+    return step_in(scene, &object->attach, &m, &first, &last);
+}
+
 /* ---- questions ------------------------------------------------------------------------------- */
+
+const struct kiln_attach *kiln_node_outer(const struct kiln_scene *scene, uint32_t node)
+{
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    return n->mesh ? &scene->backdrop.objects[n->object].attach : &n->parent;
+}
+
+const struct kiln_animation *kiln_node_animation(const struct kiln_scene *scene, uint32_t node)
+{
+    const struct kiln_scene_node *n = &scene->nodes[node];
+    const struct kiln_animation *animation =
+        n->mesh ? &scene->backdrop.objects[n->object].animation : &n->animation;
+    return n->rig && animation->enabled ? animation : NULL;
+}
+
+static bool are_constant(const struct kiln_value3 *position, const struct kiln_value3 *rotation,
+                         const struct kiln_value *scale)
+{
+    return kiln_value3_is_constant(position) && kiln_value3_is_constant(rotation) &&
+           scale->count == 0;
+}
 
 bool kiln_node_stands(const struct kiln_scene *scene, uint32_t node)
 {
     const struct kiln_scene_node *n = &scene->nodes[node];
-    const bool stands = n->position.path.points.count == 0 &&
-                        kiln_value3_is_constant(&n->position.value) &&
-                        kiln_value3_is_constant(&n->rotation) && n->scale.count == 0;
-    return stands && (!n->parent.name || kiln_node_stands(scene, n->parent.node));
+    const struct kiln_object *object = n->mesh ? &scene->backdrop.objects[n->object] : NULL;
+    const struct kiln_attach *outer = kiln_node_outer(scene, node);
+    const bool stands =
+        n->position.path.points.count == 0 && !kiln_node_animation(scene, node) &&
+        are_constant(&n->position.value, &n->rotation, &n->scale) &&
+        (!object || are_constant(&object->center, &object->rotation, &object->scale));
+    return stands && (!outer->name || kiln_node_stands(scene, outer->node));
 }
 
 bool kiln_node_carries(const struct kiln_scene *scene, uint32_t node, uint32_t other)
 {
-    while (other != node && scene->nodes[other].parent.name)
-        other = scene->nodes[other].parent.node;
-    return other == node;
-}
-
-/* ---- what is attached ------------------------------------------------------------------------ */
-
-static float3 rotated(const struct kiln_node_frame *frame, float3 v, double scale)
-{
-    double y[3];
-    rotate(y, frame->turn, (const double[3]){(double)v.x, (double)v.y, (double)v.z});
-    return FLOAT3((float)(y[0] * scale), (float)(y[1] * scale), (float)(y[2] * scale));
-}
-
-float3 kiln_attached_point(const struct kiln_scene *scene, const struct kiln_attach *attach,
-                           float3 point, float time_s)
-{
-    if (!attach->name)
-        return point;
-    const struct kiln_node_frame frame = kiln_node_frame_at(scene, attach->node, time_s, time_s);
-    double y[3];
-    rotate(y, frame.turn, (const double[3]){(double)point.x, (double)point.y, (double)point.z});
-    return FLOAT3((float)(frame.at[0] + y[0] * frame.scale),
-                  (float)(frame.at[1] + y[1] * frame.scale),
-                  (float)(frame.at[2] + y[2] * frame.scale));
-}
-
-float3 kiln_attached_vector(const struct kiln_scene *scene, const struct kiln_attach *attach,
-                            float3 vector, float time_s)
-{
-    if (!attach->name)
-        return vector;
-    const struct kiln_node_frame frame = kiln_node_frame_at(scene, attach->node, time_s, time_s);
-    return rotated(&frame, vector, 1);
-}
-
-float kiln_attached_length(const struct kiln_scene *scene, const struct kiln_attach *attach,
-                           float length, float time_s)
-{
-    if (!attach->name)
-        return length;
-    return (float)(kiln_node_frame_at(scene, attach->node, time_s, time_s).scale * (double)length);
-}
-
-void kiln_attached_rotation(const struct kiln_scene *scene, const struct kiln_attach *attach,
-                            float columns[3][3], float time_s)
-{
-    if (!attach->name)
-        return;
-    const struct kiln_node_frame frame = kiln_node_frame_at(scene, attach->node, time_s, time_s);
-    for (int c = 0; c < 3; c++) {
-        const float3 y = rotated(&frame, FLOAT3(columns[c][0], columns[c][1], columns[c][2]), 1);
-        columns[c][0] = y.x;
-        columns[c][1] = y.y;
-        columns[c][2] = y.z;
+    const struct kiln_attach *outer = kiln_node_outer(scene, other);
+    while (other != node && outer->name) {
+        other = outer->node;
+        outer = kiln_node_outer(scene, other);
     }
-}
-
-float3 kiln_object_center(const struct kiln_scene *scene, const struct kiln_object *object,
-                          float time_s)
-{
-    return kiln_attached_point(scene, &object->attach,
-                               kiln_scene_value3(scene, &object->center, time_s), time_s);
-}
-
-float3 kiln_object_size(const struct kiln_scene *scene, const struct kiln_object *object,
-                        float time_s)
-{
-    const float3 size = kiln_scene_value3(scene, &object->size, time_s);
-    if (!object->attach.name)
-        return size;
-    return float3_scale(size, kiln_attached_length(scene, &object->attach, 1.0f, time_s));
-}
-
-float3 kiln_object_axis(const struct kiln_scene *scene, const struct kiln_object *object,
-                        float time_s)
-{
-    return kiln_attached_vector(scene, &object->attach,
-                                kiln_scene_value3(scene, &object->axis, time_s), time_s);
-}
-
-float kiln_object_length(const struct kiln_scene *scene, const struct kiln_object *object,
-                         const struct kiln_value *length, float time_s)
-{
-    return kiln_attached_length(scene, &object->attach, kiln_scene_value(scene, length, time_s),
-                                time_s);
-}
-
-void kiln_object_rotation(const struct kiln_scene *scene, const struct kiln_object *object,
-                          float time_s, float columns[3][3])
-{
-    kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), columns);
-    kiln_attached_rotation(scene, &object->attach, columns, time_s);
-}
-
-struct kiln_camera_stand kiln_scene_camera_at(const struct kiln_scene *scene, float time_s)
-{
-    const struct kiln_camera *camera = &scene->camera;
-    const float3 eye = kiln_scene_value3(scene, &camera->position, time_s);
-    const float3 target = kiln_scene_value3(scene, &camera->target, time_s);
-    const float3 way = float3_sub(target, eye);
-    const float square = float3_dot(way, way);
-    const float rise = square < KILN_CAMERA_NO_WAY ? 0.0f : way.y / sqrtf(square);
-    float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
-    /* Where the camera looks straight down or up, the frame's up cannot be the picture's up. */
-    if (fabsf(rise) > 0.9999f)
-        up = FLOAT3(0.0f, 0.0f, rise > 0.0f ? 1.0f : -1.0f);
-    return (struct kiln_camera_stand){
-        .eye = kiln_attached_point(scene, &camera->attach, eye, time_s),
-        .way = kiln_attached_vector(scene, &camera->attach, way, time_s),
-        .distance = kiln_attached_length(scene, &camera->attach, sqrtf(square), time_s),
-        .up = kiln_attached_vector(scene, &camera->attach, up, time_s),
-    };
+    return other == node;
 }

@@ -9,10 +9,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "scene/animation.h"
 #include "scene/path.h"
 #include "shared/platform.h"
 
 struct kiln_object;
+struct kiln_rig;
 struct kiln_scene;
 
 enum { KILN_MAX_NODES = 256 };
@@ -51,6 +53,15 @@ struct kiln_scene_node {
     enum kiln_heading heading;
     enum kiln_ahead ahead; /* the axis that `heading` turns along the path */
     struct kiln_value scale;
+    const char *file;                /* absolute path of a glTF file; NULL: none */
+    const char *file_node;           /* the node of the file, by name or number */
+    struct kiln_animation animation; /* of the file */
+    const char *mesh;  /* the name of an object, in whose frame the node lies; NULL: none */
+    const char *joint; /* the joint of its file, by name or number */
+    uint32_t object;   /* follows: the number of the object */
+    /* follows, of both: the nodes of the file, of which one moves this node within its frame */
+    const struct kiln_rig *rig;
+    uint32_t rig_node;
 };
 
 /* The frame of a node in the world, and how fast it changes. */
@@ -68,6 +79,11 @@ struct kiln_node_frame {
 struct kiln_node_frame kiln_node_frame_at(const struct kiln_scene *scene, uint32_t node,
                                           float time_s, float rate_s);
 
+/* Returns the frame of an object of the backdrop that is a mesh, in the same way. */
+struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
+                                            const struct kiln_object *object, float time_s,
+                                            float rate_s);
+
 /* The frames of a node at both ends of a step. */
 struct kiln_node_step {
     struct kiln_node_frame start, end;
@@ -83,8 +99,18 @@ struct kiln_node_step {
 struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t node,
                                         uint32_t step);
 
+/* Returns those of an object of the backdrop that is a mesh. */
+struct kiln_node_step kiln_object_step_at(const struct kiln_scene *scene,
+                                          const struct kiln_object *object, uint32_t step);
+
 /* Returns the quaternion of the rotation about x, then y, then z, by angles in radians. */
 void kiln_node_turn_of_angles(float3 angles, double turn[4]);
+
+/* Returns the node that a node lies in: its parent, or that of the object whose joint it is. */
+const struct kiln_attach *kiln_node_outer(const struct kiln_scene *scene, uint32_t node);
+
+/* Returns the animation that moves a node within its file, or NULL. */
+const struct kiln_animation *kiln_node_animation(const struct kiln_scene *scene, uint32_t node);
 
 /* Returns whether a node, with all of its parents, has one frame at all times. */
 bool kiln_node_stands(const struct kiln_scene *scene, uint32_t node);
@@ -103,6 +129,11 @@ float kiln_attached_length(const struct kiln_scene *scene, const struct kiln_att
                            float length, float time_s);
 void kiln_attached_rotation(const struct kiln_scene *scene, const struct kiln_attach *attach,
                             float columns[3][3], float time_s);
+
+/* Computes the velocity in the world, m/s, of a point that is attached and moves by `rate` in the
+ * node's frame. */
+void kiln_attached_velocity(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                            float3 point, float3 rate, float time_s, double velocity[3]);
 
 /* Return what an object is in the world at a clip time: its centre, its edges, the direction of its
  * axis, a radius or height, and its rotation. */

@@ -1,9 +1,13 @@
 /* This file settles the nodes of a scene when all of its rows are read: names become numbers, rings
- * of parents are refused, and the curves of paths are measured once. */
+ * of parents are refused, the curves of paths are measured once, and files with nodes are read. */
 #include "scene/node_settle.h"
 
 #include <stdio.h>
 #include <string.h>
+
+#include "scene/baked.h"
+#include "scene/node_rig.h"
+#include "scene/options.h"
 
 /* ---- names ----------------------------------------------------------------------------------- */
 
@@ -55,23 +59,24 @@ static bool find_parents(struct kiln_reader *reader, const struct kiln_node *roo
 static bool check_ring(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
-    const struct kiln_scene_node *node = &scene->nodes[index];
-    uint32_t count = 0;
-    while (node->parent.name && node->parent.node != index && count <= scene->node_count) {
-        node = &scene->nodes[node->parent.node];
+    const struct kiln_attach *outer = kiln_node_outer(scene, index);
+    uint32_t count = 0, at = index;
+    while (outer->name && outer->node != index && count <= scene->node_count) {
+        outer = kiln_node_outer(scene, outer->node);
         count++;
     }
-    if (!node->parent.name || node->parent.node != index)
+    if (!outer->name || outer->node != index)
         return true; /* also where it leads into a ring of others, which is found from there */
     char path[80], chain[256];
     size_t length = (size_t)snprintf(chain, sizeof chain, "%s", scene->nodes[index].name);
-    node = &scene->nodes[index];
     do {
-        node = &scene->nodes[node->parent.node];
+        at = kiln_node_outer(scene, at)->node;
         if (length < sizeof chain)
-            length += (size_t)snprintf(chain + length, sizeof chain - length, ", %s", node->name);
-    } while (node != &scene->nodes[index]);
-    snprintf(path, sizeof path, "nodes.%s.parent", scene->nodes[index].name);
+            length += (size_t)snprintf(chain + length, sizeof chain - length, ", %s",
+                                       scene->nodes[at].name);
+    } while (at != index);
+    snprintf(path, sizeof path, "nodes.%s.%s", scene->nodes[index].name,
+             scene->nodes[index].mesh ? "mesh" : "parent");
     return kiln_reader_error_at(
         reader, root, path,
         "the node is its own parent: %s%s; the first node of a chain has no "
@@ -151,21 +156,35 @@ static bool find_backdrop(struct kiln_reader *reader, const struct kiln_node *ro
     return ok;
 }
 
+/* Finds the nodes of a force and of its region. */
+static bool find_force(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
+                       struct kiln_force *force)
+{
+    char key[160];
+    snprintf(key, sizeof key, "%s.attach", path);
+    bool ok = find_node(reader, root, key, &force->attach);
+    snprintf(key, sizeof key, "%s.region.attach", path);
+    return ok && find_node(reader, root, key, &force->region.attach);
+}
+
 static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root,
                         struct kiln_system *system)
 {
+    uint32_t inner = system->force_count;
     bool ok = true;
+    char path[128];
     for (uint32_t i = 0; ok && i < system->force_count; i++) {
         struct kiln_force *force = &system->forces[i];
-        char path[96];
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.attach", system->name, i,
-                 force->kind == KILN_FORCE_VORTEX ? "vortex" : "attract");
-        ok = find_node(reader, root, path, &force->attach);
-        if (ok && force->attach.name && force->region.enabled)
-            return kiln_reader_error_at(reader, root, path, "must be none for a force in a region");
-        if (ok && force->attach.name && force->scale.count > 0)
-            return kiln_reader_error_at(reader, root, path,
-                                        "must be none for a force whose radius varies");
+        kiln_system_force_path(system, i, path, sizeof path);
+        ok = find_force(reader, root, path, force);
+        for (uint32_t k = 0; ok && force->kind == KILN_FORCE_BAKED && k < force->of.count; k++) {
+            kiln_system_force_path(system, inner++, path, sizeof path);
+            ok = find_force(reader, root, path, &force->of.at[k]);
+        }
+    }
+    for (uint32_t i = 0; ok && i < system->demitter_count; i++) {
+        snprintf(path, sizeof path, "systems.%s.demitters.%u.attach", system->name, i);
+        ok = find_node(reader, root, path, &system->demitters[i].attach);
     }
     return ok;
 }
@@ -179,6 +198,10 @@ static bool find_systems(struct kiln_reader *reader, const struct kiln_node *roo
         char path[80];
         snprintf(path, sizeof path, "systems.%s.emit.attach", system->name);
         if (!find_node(reader, root, path, &emit->attach) || !find_forces(reader, root, system))
+            return false;
+        char space[80];
+        snprintf(space, sizeof space, "systems.%s.space", system->name);
+        if (!find_node(reader, root, space, &system->space))
             return false;
         if (emit->attach.name && emit->parent.enabled)
             return kiln_reader_error_at(reader, root, path,
@@ -200,7 +223,8 @@ static bool check_focus(struct kiln_reader *reader, const struct kiln_node *root
                                 "has no target in its node");
 }
 
-/* Puts a camera that says no more than its node into that node, and lets it look along z. */
+/* Puts a camera that says no more than its node into that node, and lets it look along z. A camera
+ * of a file looks along -z. */
 static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_camera *camera = &kiln_reader_scene(reader)->camera;
@@ -211,6 +235,10 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
     const struct kiln_node *rows = kiln_node_entry(root, "camera");
     const bool placed = rows && kiln_node_entry(rows, "position");
     const bool aimed = rows && kiln_node_entry(rows, "target");
+    const bool has_fov = rows && kiln_node_entry(rows, "fov");
+    bool ok = true;
+    const bool is_of_file =
+        kiln_node_rigs_take_camera(reader, root, camera->attach.node, has_fov, &ok);
     if (!placed)
         camera->position = (struct kiln_value3){.x = {.constant = 0}};
     if (placed && !aimed && !kiln_value3_is_constant(&camera->position))
@@ -220,17 +248,18 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
         if (!check_focus(reader, root))
             return false;
         camera->target = camera->position;
-        camera->target.z.constant += 1;
+        camera->target.z.constant += is_of_file ? -1 : 1;
     }
-    return true;
+    return ok;
 }
 
 bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
-    bool ok = check_names(reader, root) && find_parents(reader, root);
+    bool ok = check_names(reader, root) && kiln_node_rigs_find_objects(reader, root) &&
+              find_parents(reader, root) && find_backdrop(reader, root);
     for (uint32_t i = 0; ok && i < scene->node_count; i++)
         ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
-    return ok && settle_camera(reader, root) && find_backdrop(reader, root) &&
+    return ok && kiln_node_rigs_settle(reader, root) && settle_camera(reader, root) &&
            find_systems(reader, root);
 }

@@ -116,14 +116,7 @@ TABLE(plane) = {
 };
 
 TABLE(animation) = {
-    {ROW(MOTION, "clip", clip, animation.clip, "0",
-         "Name of the animation in the file, or its number from 0.")},
-    VALUE(MOTION, "start", animation.start, KILN_SECONDS, -FAR, FAR, 0, "0 s",
-          "Time in the animation at clip time 0."),
-    VALUE(MOTION, "speed", animation.speed, KILN_PLAIN, -1000, 1000, 0, "1",
-          "Factor on the speed of the animation; a value below 0 plays it backwards."),
-    BOOLEAN(MOTION, "loop", animation.loop, "true",
-            "The animation starts again at its end. Otherwise it stays at its last pose."),
+    ANIMATION(MOTION, animation.),
     END,
 };
 

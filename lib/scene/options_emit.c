@@ -31,11 +31,13 @@ ITEM_OF_ROWS(burst, burst_options);
 #undef FILLS
 #define FILLS struct kiln_emitter
 
-/* Options that every shape has. `spread` is the default of `angle`. */
-#define PLACE(spread)                                                                              \
+/* Options that every shape has. `spread` is the default of `angle`, and `towards` of `direction`.
+ */
+#define PLACE(spread) PLACE_TO(spread, "[0, 1, 0]")
+#define PLACE_TO(spread, towards)                                                                  \
     VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, BIRTH(1), "[0, 0, 0]",                \
            "Centre of the shape. When it moves, births are spread along its way."),                \
-        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), "[0, 1, 0]",       \
+        VECTOR(MOTION, "direction", direction, KILN_PLAIN, -FAR, FAR, BIRTH(2), towards,           \
                "Mean direction in which particles start, of any length but 0."),                   \
         VALUE(MOTION, "angle", angle, KILN_ANGLE, 0, KILN_DEG(180), BIRTH(3), spread,              \
               "Largest angle between a particle's direction and the mean direction.")
@@ -45,6 +47,11 @@ ITEM_OF_ROWS(burst, burst_options);
           "0 deg/s",                                                                               \
           "Angular speed at which the shape turns about its direction. Particles get the "         \
           "velocity that the turning shape has where they are born.")
+
+#define ORDERED                                                                                    \
+    BOOLEAN(IF_ORDERED, "ordered", ordered, "false",                                               \
+            "true puts the particles of a burst at equal distances in the order of their births, " \
+            "from one end to the other, instead of at random. Those of `rate` stay at random.")
 
 TABLE(point) = {
     PLACE("0 deg"),
@@ -84,6 +91,7 @@ TABLE(ring) = {
     VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, BIRTH(8), "0.5 m",
           "Radius of the ring, which faces the direction."),
     TURN,
+    ORDERED,
     END,
 };
 
@@ -107,6 +115,64 @@ TABLE(line) = {
         "equal parts, with a nozzle in the middle of each. With 0, particles are born anywhere on "
         "the line."),
     TURN,
+    ORDERED,
+    END,
+};
+
+static const char *const places_on_mesh[] = {
+    [KILN_ON_SURFACE] = "surface",
+    [KILN_ON_VERTICES] = "vertices",
+    [KILN_ON_VOLUME] = "volume",
+    NULL,
+};
+
+TABLE(mesh) = {
+    PLACE("0 deg"),
+    {ROW(MOTION, "file", mesh, source.file, "none",
+         "An OBJ, glTF, GLB, PLY or STL file of triangles, at rest. Without it, there is an "
+         "`object`.")},
+    {ROW(MOTION, "object", object, source.object, "none",
+         "A mesh of the backdrop, in whose frame the shape lies. Births are spread along its way, "
+         "and `inherit` is of its velocity there.")},
+    CHOICE(MOTION, "on", source.on, places_on_mesh, "surface",
+           "`surface` is all triangles, by their areas. `vertices` is the vertices of the file, "
+           "all of which are as likely. `volume` is the inside of a closed mesh."),
+    BOOLEAN(MOTION, "outward", outward, "true",
+            "The mean direction of a particle is that of the surface where it is born, or of the "
+            "normal of the vertex, instead of `direction`. It counts for nothing in a volume."),
+    VECTOR(MOTION, "rotation", source.rotation, KILN_ANGLE, KILN_DEG(-36000), KILN_DEG(36000), 0,
+           "[0, 0, 0]", "Rotation of a file about the x, y and z axes, in this order."),
+    {ROW(MOTION, "scale", number, source.scale, "1", "Metres in one unit of a file."),
+     LIMITS(KILN_PLAIN, 1e-6, 1e6)},
+    END,
+};
+
+TABLE(image) = {
+    PLACE_TO("0 deg", "[0, 0, 1]"),
+    {ROW(MOTION, "file", image, source.file, "none",
+         "The image. It stands upright around the origin, x to the right and y up. Particles are "
+         "born on its pixels, by their alpha, or by their brightness if all of it is opaque: a "
+         "pixel that has twice as much gets twice as many.")},
+    {ROW(MOTION, "width", number, source.width, "1 m",
+         "Width of the image. Its height follows from its proportions."),
+     LIMITS(KILN_METRES, 0.001, FAR)},
+    {ROW(MOTION, "threshold", number, source.threshold, "0.5",
+         "No particle is born on a pixel whose alpha or brightness is not above this, which is "
+         "from 0 to 1."),
+     LIMITS(KILN_FRACTION, 0, 1)},
+    TURN,
+    END,
+};
+
+TABLE(path) = {
+    PLACE("0 deg"),
+    {ROW(MOTION, "points", points, source.path.points, NULL,
+         "Points that the path goes through smoothly, as that of a node does. Particles are born "
+         "all along its length alike."),
+     LIMITS(KILN_METRES, -FAR, FAR)},
+    BOOLEAN(MOTION, "closed", source.path.closed, "false", "The path ends at its first point."),
+    TURN,
+    ORDERED,
     END,
 };
 
@@ -127,6 +193,19 @@ KINDS(shapes) = {
      .value = KILN_EMITTER_LINE,
      MEMBERS(line),
      .help = "A line, or a rake of nozzles, whose smoke shows how air flows."},
+    {.name = "mesh",
+     .value = KILN_EMITTER_MESH,
+     MEMBERS(mesh),
+     .help = "The surface of a mesh, of a file or of the backdrop."},
+    {.name = "image",
+     .value = KILN_EMITTER_IMAGE,
+     MEMBERS(image),
+     .shortcut = "file",
+     .help = "The pixels of an image, such as a logo."},
+    {.name = "path",
+     .value = KILN_EMITTER_PATH,
+     MEMBERS(path),
+     .help = "A smooth curve through points."},
     {.name = NULL},
 };
 
@@ -166,6 +245,12 @@ TABLE(death) = {
 
 TABLE(bounce) = {
     COUNT,
+    BOOLEAN(
+        IF_EACH_BOUNCE, "every", parent.every, "false",
+        "Particles are born at each impact, up to `most`. Each draws its own count. At most one "
+        "impact counts in a step; a particle that lies on a surface has one in each."),
+    INTEGER(IF_EACH_BOUNCE, "most", parent.hits, 1, 1000, "3",
+            "With `every`: the number of impacts of one particle that give birth."),
     ALIGN(aligns, "`velocity` turns it to the velocity of the parent's particle after the bounce. "
                   "`normal` turns it away from the surface."),
     END,
@@ -175,6 +260,12 @@ TABLE(trail) = {
     VALUE(MOTION, "rate", parent.rate, KILN_PER_SECOND, 0, 1e6, SUMMED(11), "20",
           "Particles born a second while a particle of the parent lives. `life` and `random` are "
           "those of the parent's particle."),
+    {ROW(IF_BY_METRE, "per_metre", number, parent.per_metre, "0 1/m",
+         "Particles born a metre of the way of a particle of the parent, at even distances, "
+         "instead of `rate`. With 0, the rate counts."),
+     LIMITS(KILN_PER_METRE, 0, 100000)},
+    INTEGER(IF_BY_METRE, "most", parent.most, 1, 65536, "256",
+            "With `per_metre`: the most particles born of one particle of the parent."),
     ALIGN(aligns_in_flight, TO_VELOCITY),
     END,
 };
@@ -191,15 +282,32 @@ KINDS(events) = {
      .value = KILN_EVENT_BOUNCE,
      MEMBERS(bounce),
      .shortcut = "count",
-     .help = "Particles are born when a particle of the parent first meets a surface. They inherit "
-             "its velocity after the bounce."},
+     .help =
+         "Particles are born when a particle of the parent first meets a surface, or with `every` "
+         "each time. They inherit its velocity after the bounce."},
     {.name = "trail",
      .value = KILN_EVENT_TRAIL,
      MEMBERS(trail),
      .shortcut = "rate",
-     .help = "Particles are born all along the way of a particle of the parent, the first one "
-             "where it is born."},
+     .help = "Particles are born all along the way of a particle of the parent: by the rate, the "
+             "first one where it is born, and by the metre, when it has gone the first distance."},
     {.name = NULL},
+};
+
+#define OF_PARENT(name, field, help)                                                               \
+    BOOLEAN(IF_LOOKS_ARE_INHERITED, name, parent.look.field, "false", help)
+
+TABLE(inherited) = {
+    OF_PARENT("color", color,
+              "Particles have the parent's `look.color` of the moment of their birth instead of "
+              "their own."),
+    OF_PARENT("size", size,
+              "Particles have the parent's `look.size` of the moment of their birth instead of "
+              "their own; `look.scale` multiplies it."),
+    OF_PARENT("temperature", temperature,
+              "Particles have the parent's `look.temperature` of the moment of their birth instead "
+              "of their own."),
+    END,
 };
 
 TABLE(parent) = {
@@ -207,6 +315,9 @@ TABLE(parent) = {
          "Name of the system whose particles give birth to these.")},
     KIND(MOTION, "on", events, parent.event, "{death: {}}",
          "The event at which particles are born, and how many are born."),
+    GROUP(IF_LOOKS_ARE_INHERITED, "inherit", inherited,
+          "What particles have of the look of the parent's particle. Those values of the parent "
+          "may vary over life, age and random numbers."),
     END,
 };
 
@@ -215,6 +326,11 @@ TABLE(emit_options) = {
            "The particles are born of another system's particles, not by `rate` and `bursts`. The "
            "shape `from` then lies around the parent's particle."),
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
+    {ROW(IF_EMITTED_BY_METRE, "per_metre", number, per_metre, "0 1/m",
+         "Particles born a metre of the way of the origin of `from`, at even distances, beside "
+         "those of `rate`. The origin moves if it has keys, or by the node that it is attached "
+         "to."),
+     LIMITS(KILN_PER_METRE, 0, 100000)},
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
          "Particles that are born at once: a map of clip times, in seconds, to their numbers, or a "
          "list of bursts that may be repeated. The frame at 0 s shows those of 0 s, at age 0; "
@@ -249,6 +365,7 @@ static const char *const thens[] = {
     [KILN_THEN_BOUNCE] = "bounce",
     [KILN_THEN_DIE] = "die",
     [KILN_THEN_STOP] = "stop",
+    [KILN_THEN_STICK] = "stick",
     NULL,
 };
 
@@ -277,7 +394,7 @@ TABLE(collide_options) = {
         IF_STOPS, "then", then, thens, "bounce",
         "What an impact does. `bounce` lets a particle bounce. `die` ends it. `stop` lets it rest "
         "where it hit, without forces, until its life ends; it stays there also if the object "
-        "moves on."),
+        "moves on. `stick` is the same, but the particle rides an object that moves or turns."),
     VALUE(IF_NOT_CERTAIN, "chance", chance, KILN_FRACTION, 0, 1, LIFE(99), "1",
           "Chance of the first impact in a step to do what `then` says. Otherwise the particle "
           "bounces."),
@@ -309,7 +426,7 @@ TABLE(paint_options) = {
 #undef FILLS
 #define FILLS struct kiln_system
 
-ITEM(demitter, bounds, .name = "demitter", LIMITS(KILN_METRES, -FAR, FAR));
+ITEM(demitter, demitter, .name = "demitter", LIMITS(KILN_METRES, -FAR, FAR));
 ITEM_OF_KINDS(force, kiln_force_kinds, kind, .name = "force");
 ITEM_OF_KINDS(interaction, kiln_interaction_kinds, kind, .name = "interaction");
 
@@ -325,6 +442,11 @@ PUBLIC_TABLE(kiln_options_system) = {
          "it. Two systems of one number draw the same."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_SYSTEM_SEED), .special_word = "auto"},
     GROUP_AT(MOTION, "emit", emit, emit_options, "How particles are born."),
+    {ROW(IF_SPACE_IS_OF_NODE, "space", attach, space, "none",
+         "Node that the particles move with: in each step they are carried as the node moves and "
+         "turns, and meet colliders on their way. Their velocities are those within the node. All "
+         "else acts in the world."),
+     .special_word = "none"},
     LIST(MOTION, "forces", forces, force, force_count, "[]",
          "Forces that accelerate the particles. Their accelerations are added up."),
     SWITCH_AT(MOTION, "collide", collide, collide_options, collide.enabled, "none",
@@ -335,7 +457,7 @@ PUBLIC_TABLE(kiln_options_system) = {
         MOTION, "paint", paint, paint_options, paint.enabled, "none",
         "Particles leave the colour of their look on meshes that take paint (Drone 2007, 7.6.1)."),
     LIST(MOTION, "demitters", demitters, demitter, demitter_count, "[]",
-         "Boxes in which particles die."),
+         "Boxes in which particles die. With `attach: NODE`, a box lies in the frame of a node."),
     BOUNDS(MOTION, "bounds", bounds, "none", "A box outside of which particles die."),
     GROUP_AT(MOTION, "look", look, kiln_options_look, "What the particles look like."),
     END,

@@ -183,8 +183,10 @@ PUBLIC_TABLE(kiln_options_look) = {
           "How many times the atlas plays in a life."),
     BOOLEAN(LOOK, "random_start", random_start, "false",
             "Each particle starts at a random cell of the atlas."),
-    COLOR(IF_IT_PAINTS, "color", color, 1000, DRAWN(35), "1",
-          "Factor on the colour of the atlas or of the glow."),
+    {ROW(IF_IT_PAINTS, "color", color, color, "1",
+         "Factor on the colour of the atlas or of the glow. `source` is the colour of the mesh or "
+         "of the image at the place where the particle was born."),
+     LIMITS(KILN_PLAIN, 0, 1000), .clocks = DRAWN(35), .special_word = "source"},
     VALUE(LOOK, "opacity", opacity, KILN_FRACTION, 0, 1, DRAWN(36), "1",
           "Factor on the alpha of the atlas."),
     VALUE(LOOK, "temperature", temperature, KILN_KELVIN, 0, 20000, DRAWN(37), "0 K",

@@ -49,6 +49,11 @@ static const char *const aheads[] = {
     NULL,
 };
 
+TABLE(file_animation) = {
+    ANIMATION(IF_NODE_IS_OF_FILE, animation.),
+    END,
+};
+
 PUBLIC_TABLE(kiln_options_node) = {
     {ROW(OF_NODE, "parent", attach, parent, "none",
          "Node in whose frame this one lies. A parent may have a parent."),
@@ -65,5 +70,18 @@ PUBLIC_TABLE(kiln_options_node) = {
     CHOICE(OF_NODE, "ahead", ahead, aheads, "z", "The axis that `heading: path` turns ahead."),
     VALUE(OF_NODE, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME(72), "1",
           "Factor on places and sizes of what lies in the node."),
+    {ROW(IF_NODE_IS_OF_FILE, "file", mesh, file, "none",
+         "A glTF or GLB file, whose space is that of position, rotation and scale. The node then "
+         "is where a node of the file is.")},
+    {ROW(IF_NODE_IS_OF_FILE, "node", part, file_node, "none",
+         "The node of the file. If it has a camera, a camera attached here looks along -z and "
+         "takes the field of view of that camera.")},
+    SWITCH(IF_NODE_IS_OF_FILE, "animation", file_animation, animation.enabled, "{}",
+           "An animation of the file, which moves the node. A file without animations needs none."),
+    {ROW(IF_NODE_IS_JOINT, "mesh", part, mesh, "none",
+         "A mesh of the backdrop by its name. The node then is where a joint of that mesh is; it "
+         "has no parent, position, rotation and scale of its own.")},
+    {ROW(IF_NODE_IS_JOINT, "joint", part, joint, "none",
+         "The joint, or another node of the mesh's file. It follows the mesh and its animation.")},
     END,
 };

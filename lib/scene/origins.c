@@ -45,7 +45,11 @@ static void enter_kind(struct walk *walk, const char *name)
     const struct kiln_option_kind *kind = walk->kinds;
     enter_entry(walk, name);
     const struct kiln_node *node = walk->node;
+    const struct kiln_node *inside =
+        node ? kiln_option_variant_inside(walk->kinds, name, node) : NULL;
     const struct kiln_node *field = node ? kiln_node_entry(node, "field") : NULL;
+    field = inside ? inside->key : field;
+    node = inside ? inside : node;
     while (kind->name && (strcmp(kind->name, name) != 0 ||
                           (kind->variant && field && !kiln_node_is(field, kind->variant))))
         kind++;

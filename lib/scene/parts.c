@@ -11,6 +11,9 @@
  * tests/unit/test_motion.c changes every row and checks this. */
 #include "scene/parts.h"
 
+#include "scene/baked.h"
+#include "scene/source.h"
+
 /* A row that decides the motion also decides the view, so no row belongs to the motion alone. */
 enum {
     NEITHER = KILN_PART_HASHED,
@@ -78,13 +81,6 @@ static bool any_paints(const struct kiln_scene *scene)
     return any;
 }
 
-unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
-{
-    const struct kiln_object *o = object;
-    const bool bounces = o->collide && any_collides(scene);
-    return bounces || (kiln_object_takes_paint(o) && any_paints(scene)) ? BOTH : NEITHER;
-}
-
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop)
 {
     return kiln_backdrop_floor_collides(backdrop) && any_collides(scene) ? BOTH : NEITHER;
@@ -106,7 +102,7 @@ unsigned kiln_row_if_region(const void *scene, const void *force)
 unsigned kiln_row_if_stops(const void *scene, const void *collide)
 {
     (void)scene;
-    return ((const struct kiln_collide *)collide)->then == KILN_THEN_STOP ? BOTH : 0;
+    return ((const struct kiln_collide *)collide)->then >= KILN_THEN_STOP ? BOTH : 0;
 }
 
 unsigned kiln_row_if_not_certain(const void *scene, const void *collide)
@@ -122,16 +118,61 @@ unsigned kiln_row_if_impacts_count(const void *scene, const void *emit)
     return ((const struct kiln_emitter *)emit)->parent.impact ? BOTH : 0;
 }
 
+unsigned kiln_row_if_ordered(const void *scene, const void *emit)
+{
+    (void)scene;
+    return ((const struct kiln_emitter *)emit)->ordered ? BOTH : 0;
+}
+
+unsigned kiln_row_if_each_bounce(const void *scene, const void *emit)
+{
+    (void)scene;
+    const struct kiln_parent *parent = &((const struct kiln_emitter *)emit)->parent;
+    return parent->event == KILN_EVENT_BOUNCE && parent->every ? BOTH : 0;
+}
+
+unsigned kiln_row_if_by_metre(const void *scene, const void *emit)
+{
+    (void)scene;
+    const struct kiln_parent *parent = &((const struct kiln_emitter *)emit)->parent;
+    return parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0 ? BOTH : 0;
+}
+
+unsigned kiln_row_if_looks_are_inherited(const void *scene, const void *emit)
+{
+    (void)scene;
+    const struct kiln_inherited *look = &((const struct kiln_emitter *)emit)->parent.look;
+    return look->color || look->size || look->temperature ? BOTH : 0;
+}
+
+unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit)
+{
+    (void)scene;
+    return ((const struct kiln_emitter *)emit)->per_metre > 0 ? BOTH : 0;
+}
+
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter)
 {
     (void)scene;
     return ((const struct kiln_emitter *)emitter)->attach.name ? BOTH : 0;
 }
 
+unsigned kiln_row_if_space_is_of_node(const void *scene, const void *system)
+{
+    (void)scene;
+    return ((const struct kiln_system *)system)->space.name ? BOTH : 0;
+}
+
 unsigned kiln_row_if_force_is_attached(const void *scene, const void *force)
 {
     (void)scene;
     return ((const struct kiln_force *)force)->attach.name ? BOTH : 0;
+}
+
+unsigned kiln_row_if_region_is_attached(const void *scene, const void *region)
+{
+    (void)scene;
+    return ((const struct kiln_force_region *)region)->attach.name ? BOTH : 0;
 }
 
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object)
@@ -162,9 +203,14 @@ static bool is_carried(const struct kiln_scene *scene, uint32_t node,
 static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
                             const struct kiln_system *system)
 {
-    bool moves = is_carried(scene, node, &system->emit.attach);
-    for (uint32_t i = 0; i < system->force_count; i++)
-        moves = moves || is_carried(scene, node, &system->forces[i].attach);
+    bool moves =
+        is_carried(scene, node, &system->emit.attach) || is_carried(scene, node, &system->space);
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++)
+        moves = moves || is_carried(scene, node, &force->attach) ||
+                is_carried(scene, node, &force->region.attach);
+    for (uint32_t i = 0; i < system->demitter_count; i++)
+        moves = moves || is_carried(scene, node, &system->demitters[i].attach);
     return moves;
 }
 
@@ -180,11 +226,44 @@ static unsigned parts_of_node(const struct kiln_scene *scene, uint32_t node)
     return parts;
 }
 
+/* Returns the number of the node that a struct lies in. */
+static uint32_t number_of(const struct kiln_scene *scene, const void *inside)
+{
+    const size_t offset = (size_t)((const char *)inside - (const char *)scene->nodes);
+    return (uint32_t)(offset / sizeof *scene->nodes);
+}
+
 unsigned kiln_row_of_node(const void *scene, const void *inside)
 {
+    return parts_of_node(scene, number_of(scene, inside));
+}
+
+unsigned kiln_row_if_node_is_of_file(const void *scene, const void *inside)
+{
     const struct kiln_scene *in = scene;
-    const size_t offset = (size_t)((const char *)inside - (const char *)in->nodes);
-    return parts_of_node(in, (uint32_t)(offset / sizeof *in->nodes));
+    return in->nodes[number_of(in, inside)].file ? kiln_row_of_node(scene, inside) : 0;
+}
+
+unsigned kiln_row_if_node_is_joint(const void *scene, const void *inside)
+{
+    const struct kiln_scene *in = scene;
+    return in->nodes[number_of(in, inside)].mesh ? kiln_row_of_node(scene, inside) : 0;
+}
+
+/* Joints of an object move what is attached to them. */
+unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
+{
+    const struct kiln_object *o = object;
+    const struct kiln_scene *in = scene;
+    const bool bounces = o->collide && any_collides(in);
+    const bool painted = kiln_object_takes_paint(o) && any_paints(in);
+    unsigned parts = bounces || painted || kiln_object_is_source(scene, o) ? BOTH : NEITHER;
+    for (uint32_t i = 0; i < in->node_count; i++) {
+        const struct kiln_scene_node *node = &in->nodes[i];
+        if (node->mesh && o == &in->backdrop.objects[node->object])
+            parts |= parts_of_node(in, i);
+    }
+    return parts;
 }
 
 unsigned kiln_row_of_nodes(const void *scene, const void *base)

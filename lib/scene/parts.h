@@ -39,10 +39,28 @@ unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
 /* Returns the bits of all parts if deaths of parents at impacts count, and otherwise 0. */
 unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
 
+/* Returns the bits of all parts if the births of bursts are in order, and otherwise 0. */
+unsigned kiln_row_if_ordered(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if each impact of a parent has children, and otherwise 0. */
+unsigned kiln_row_if_each_bounce(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if children are born by the metre, and otherwise 0. */
+unsigned kiln_row_if_by_metre(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if children inherit something of their parent's look, which the
+ * state has to know, and otherwise 0. */
+unsigned kiln_row_if_looks_are_inherited(const void *scene, const void *emit);
+
+/* Returns the bits of all parts if an emitter has births by the metre, and otherwise 0. */
+unsigned kiln_row_if_emitted_by_metre(const void *scene, const void *emit);
+
 /* Return the bits of an `attach` that names a node, and otherwise 0; base is a struct kiln_emitter,
- * kiln_force, kiln_object, kiln_light or kiln_camera. */
+ * kiln_force, kiln_force_region, kiln_object, kiln_light or kiln_camera. */
 unsigned kiln_row_if_emitter_is_attached(const void *scene, const void *emitter);
+unsigned kiln_row_if_space_is_of_node(const void *scene, const void *system);
 unsigned kiln_row_if_force_is_attached(const void *scene, const void *force);
+unsigned kiln_row_if_region_is_attached(const void *scene, const void *region);
 unsigned kiln_row_if_object_is_attached(const void *scene, const void *object);
 unsigned kiln_row_if_light_is_attached(const void *scene, const void *light);
 unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera);
@@ -50,6 +68,9 @@ unsigned kiln_row_if_camera_is_attached(const void *scene, const void *camera);
 /* Returns the bits of what is attached to a node, or to nodes that lie in it. base is a struct
  * kiln_scene_node, or a struct within one. */
 unsigned kiln_row_of_node(const void *scene, const void *inside);
+/* Do the same for a node of a file, or for a joint, and otherwise return 0. */
+unsigned kiln_row_if_node_is_of_file(const void *scene, const void *inside);
+unsigned kiln_row_if_node_is_joint(const void *scene, const void *inside);
 /* Returns the bits of all nodes together; 0 if there are none. */
 unsigned kiln_row_of_nodes(const void *scene, const void *base);
 
@@ -67,12 +88,21 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_REGION                kiln_row_if_region
 #define IF_STOPS                 kiln_row_if_stops
 #define IF_IMPACTS_COUNT         kiln_row_if_impacts_count
+#define IF_ORDERED               kiln_row_if_ordered
+#define IF_EACH_BOUNCE           kiln_row_if_each_bounce
+#define IF_BY_METRE              kiln_row_if_by_metre
+#define IF_EMITTED_BY_METRE      kiln_row_if_emitted_by_metre
+#define IF_LOOKS_ARE_INHERITED   kiln_row_if_looks_are_inherited
 #define IF_NOT_CERTAIN           kiln_row_if_not_certain
 #define IF_EMITTER_IS_ATTACHED   kiln_row_if_emitter_is_attached
+#define IF_SPACE_IS_OF_NODE      kiln_row_if_space_is_of_node
 #define IF_FORCE_IS_ATTACHED     kiln_row_if_force_is_attached
+#define IF_REGION_IS_ATTACHED    kiln_row_if_region_is_attached
 #define IF_OBJECT_IS_ATTACHED    kiln_row_if_object_is_attached
 #define IF_LIGHT_IS_ATTACHED     kiln_row_if_light_is_attached
 #define IF_CAMERA_IS_ATTACHED    kiln_row_if_camera_is_attached
+#define IF_NODE_IS_OF_FILE       kiln_row_if_node_is_of_file
+#define IF_NODE_IS_JOINT         kiln_row_if_node_is_joint
 #define OF_NODE                  kiln_row_of_node
 #define OF_NODES                 kiln_row_of_nodes
 

@@ -2,6 +2,8 @@
  * that paint, unless all splats are painted in their own step. */
 #include "scene/pool_layout.h"
 
+#include "scene/family.h"
+
 uint32_t kiln_scene_paint_slots(const struct kiln_scene *scene)
 {
     uint32_t count = 0;
@@ -16,6 +18,7 @@ struct kiln_pool_layout kiln_scene_pool_layout(const struct kiln_scene *scene)
     for (uint32_t i = 0; i < scene->system_count; i++) {
         layout.capacities[i] = scene->systems[i].capacity;
         layout.spins[i] = kiln_scene_system_spins(scene, i);
+        layout.travels[i] = kiln_family_travels(scene, i);
     }
     const uint32_t slots = kiln_scene_paint_slots(scene);
     for (uint32_t i = 0; i < scene->backdrop.object_count && slots > 0; i++) {

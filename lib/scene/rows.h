@@ -41,4 +41,15 @@
         ROW(part, "attach", attach, attach, "none", h), .special_word = "none"                     \
     }
 
+/* The members of a struct kiln_animation, each of which has `of` before its name: part, of */
+#define ANIMATION(part, of)                                                                        \
+    {ROW(part, "clip", clip, of clip, "0",                                                         \
+         "Name of the animation in the file, or its number from 0.")},                             \
+        VALUE(part, "start", of start, KILN_SECONDS, -FAR, FAR, 0, "0 s",                          \
+              "Time in the animation at clip time 0."),                                            \
+        VALUE(part, "speed", of speed, KILN_PLAIN, -1000, 1000, 0, "1",                            \
+              "Factor on the speed of the animation; a value below 0 plays it backwards."),        \
+        BOOLEAN(part, "loop", of loop, "true",                                                     \
+                "The animation starts again at its end. Otherwise it stays at its last pose.")
+
 #endif

@@ -1,6 +1,7 @@
-/* This file counts the samples of the grids of a scene: wind files, terrain, distance fields and
- * depth maps. kiln_validate calls it while a scene is loaded, so that a scene with too many samples
- * is refused before its grids are made. scene/work.c computes the memory for them from the sum.
+/* This file counts the samples of the grids of a scene: wind files, baked winds, terrain, distance
+ * fields and depth maps. kiln_validate calls it while a scene is loaded, so that a scene with too
+ * many samples is refused before its grids are made. scene/work.c computes the memory for them from
+ * the sum.
  *
  * Wind files are read, since only the files know their sizes. The other sizes follow from the
  * options and the meshes. sim/world/grids.c makes the grids later, and must find the sizes that are
@@ -16,13 +17,14 @@
 #include "asset/geometry/grid_in.h"
 #include "base/error.h"
 #include "scene/asset_path.h"
+#include "scene/baked.h"
 #include "scene/papers/papers.h"
 
 /* Holds the sum while grids are counted. An error points at the key of the largest grid, which is
  * the one to make smaller. */
 struct count {
     uint64_t samples, largest;
-    char path[128]; /* path of the largest grid's key */
+    char path[160]; /* path of the largest grid's key */
 };
 
 static void add(struct count *count, uint64_t samples, const char *path)
@@ -66,19 +68,40 @@ static bool count_wind(struct kiln_reader *reader, const struct kiln_node *root,
 static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root,
                         const struct kiln_system *system, struct winds *winds, struct count *count)
 {
-    for (uint32_t i = 0; i < system->force_count; i++) {
-        const struct kiln_force *force = &system->forces[i];
-        char path[128];
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++) {
+        char path[128], key[160];
         if (force->kind != KILN_FORCE_FIELD || is_known(winds, force->file))
             continue;
-        snprintf(path, sizeof path, "systems.%s.forces.%u.wind.file", system->name, i);
+        kiln_system_force_path(system, i, path, sizeof path);
+        snprintf(key, sizeof key, "%s.file", path);
         if (winds->count == KILN_MAX_WINDS)
-            return kiln_reader_error_at(reader, root, path,
+            return kiln_reader_error_at(reader, root, key,
                                         "more than %d files of wind; no more are allowed",
                                         KILN_MAX_WINDS);
         winds->files[winds->count++] = force->file;
-        if (!count_wind(reader, root, path, force->file, count))
+        if (!count_wind(reader, root, key, force->file, count))
             return false;
+    }
+    return true;
+}
+
+/* Counts the samples of the baked winds of a system. */
+static bool count_baked(struct kiln_reader *reader, const struct kiln_node *root,
+                        const struct kiln_system *system, uint32_t *baked, struct count *count)
+{
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        const struct kiln_force *force = &system->forces[i];
+        uint32_t size[3];
+        char path[128];
+        if (force->kind != KILN_FORCE_BAKED)
+            continue;
+        snprintf(path, sizeof path, "systems.%s.forces.%u.wind.cells", system->name, i);
+        if (++*baked > KILN_MAX_BAKED)
+            return kiln_reader_error_at(reader, root, path,
+                                        "more than %d baked winds; no more are allowed",
+                                        KILN_MAX_BAKED);
+        add(count, kiln_baked_samples(force, size), path);
     }
     return true;
 }
@@ -161,8 +184,10 @@ bool kiln_samples_settle(struct kiln_reader *reader, const struct kiln_node *roo
     struct kiln_scene *scene = kiln_reader_scene(reader);
     struct count count = {.samples = 0};
     struct winds winds = {.count = 0};
+    uint32_t baked = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (!count_winds(reader, root, &scene->systems[i], &winds, &count))
+        if (!count_winds(reader, root, &scene->systems[i], &winds, &count) ||
+            !count_baked(reader, root, &scene->systems[i], &baked, &count))
             return false;
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {

@@ -1,5 +1,5 @@
 /* Counts the samples of the grids that move particles or that particles collide with: wind files,
- * terrain, depth maps and distance fields (sim/world/grids.h makes them). */
+ * baked winds, terrain, depth maps and distance fields (sim/world/grids.h makes them). */
 #ifndef KILN_SCENE_SAMPLES_H
 #define KILN_SCENE_SAMPLES_H
 

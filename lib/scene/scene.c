@@ -191,6 +191,16 @@ float kiln_scene_animation_s(const struct kiln_animation *animation, float time_
     return exact_clamp(seconds - rounds * animation->length, 0.0f, animation->length);
 }
 
+float kiln_scene_animation_speed(const struct kiln_animation *animation, float time_s)
+{
+    const float speed = animation->speed.constant, length = animation->length;
+    float seconds;
+    rounds_of(animation, time_s, &seconds);
+    const bool stays =
+        speed > 0.0f ? seconds < 0.0f || seconds >= length : seconds <= 0.0f || seconds > length;
+    return stays && !animation->loop ? 0.0f : speed;
+}
+
 bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
                                float *end_s)
 {
@@ -319,7 +329,9 @@ void kiln_scene_births_init(struct kiln_scene_births *births, const struct kiln_
                    .random_key = kiln_scene_derived(scene, system).random_key,
                    .steps_num = scene->rate.num,
                    .steps_den = scene->rate.den,
-                   .warmup_steps = scene->warmup_steps},
+                   .warmup_steps = scene->warmup_steps,
+                   .by_way = emit->by_way,
+                   .way_count = emit->way_count},
         .scene = scene,
         .system = system,
         .rate = &emit->rate,

@@ -55,18 +55,25 @@ enum kiln_integration {
 /* The largest number of a system: the key of the next one would be that of system 0 (random.h). */
 #define KILN_MAX_SYSTEM_SEED (UINT32_MAX - 1)
 
+/* A box in which particles die (Heinz 2019, 2.1.2). */
+struct kiln_demitter {
+    struct kiln_bounds box;
+    struct kiln_attach attach; /* the box lies in this node */
+};
+
 struct kiln_system {
     const char *name;
     bool enabled;
     uint32_t seed; /* number of the system in shared/random.h: its place, if the scene has none */
     struct kiln_emitter emit;
+    struct kiln_attach space; /* the particles move with this node */
     struct kiln_force forces[KILN_MAX_FORCES];
     uint32_t force_count;
     struct kiln_collide collide;
     struct kiln_interaction interactions[KILN_MAX_INTERACTIONS];
     uint32_t interaction_count;
     struct kiln_painting paint;
-    struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* boxes: a particle inside dies (2.1.2) */
+    struct kiln_demitter demitters[KILN_MAX_DEMITTERS];
     uint32_t demitter_count;
     struct kiln_bounds bounds; /* box: a particle outside dies (2.1.2) */
     struct kiln_look look;
@@ -86,16 +93,6 @@ enum kiln_object_kind {
     KILN_OBJECT_PLANE,   /* the half-space below it is solid */
     KILN_OBJECT_TERRAIN, /* drawn as a mesh */
     KILN_OBJECT_CONE,    /* with a flat base; its axis points to the tip */
-};
-
-/* A mesh that moves in its own space by a clip of its file (asset/geometry/skin.h). */
-struct kiln_animation {
-    bool enabled;
-    const char *clip;               /* the clip's name or number, as written */
-    struct kiln_value start, speed; /* s; factor: constant */
-    bool loop;
-    uint32_t number; /* follows: number of the clip */
-    float length;    /* follows: s, length of the clip */
 };
 
 /* How particles collide with a mesh. */
@@ -352,13 +349,6 @@ void kiln_scene_rotation(float3 angles, float columns[3][3]);
 
 /* Returns whether the object is drawn as a mesh. */
 bool kiln_object_is_mesh(const struct kiln_object *object);
-
-/* Returns how far into its clip, s, a moving mesh is at a clip time; kiln_skin_pose takes it. */
-float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
-/* Returns whether a clip restarts between two times, of which the second is later. Then *end_s
- * becomes the position in it where it ends. */
-bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
-                               float *end_s);
 
 /* Return whether particles of a system paint any mesh, and whether an object takes paint. */
 bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system);

@@ -1,5 +1,5 @@
-/* This file reads, prints and describes the types of options that name a file: picture, mesh, grid.
- */
+/* This file reads, prints and describes the types of options that name a file: picture, image,
+ * mesh, grid. */
 #include "asset/image/image.h"
 #include "scene/asset_path.h"
 
@@ -58,6 +58,25 @@ static void list_picture(const struct kiln_option *option, struct kiln_text *out
 
 const struct kiln_option_type kiln_type_picture = {
     .read = read_picture,
+    .print = print_file,
+    .describe = describe_picture,
+    .schema = schema_file,
+    .list_choices = list_picture,
+};
+
+/* ---- image ----------------------------------------------------------------------------------- */
+
+/* Reads the name of an image file that is decoded when all options are read. */
+static bool read_image(struct kiln_reader *reader, const struct kiln_option *option,
+                       const struct kiln_node *node, void *field)
+{
+    const char **file = field;
+    *file = NULL;
+    return kiln_node_is(node, "none") || read_file(reader, option, node, NULL, file);
+}
+
+const struct kiln_option_type kiln_type_image = {
+    .read = read_image,
     .print = print_file,
     .describe = describe_picture,
     .schema = schema_file,

@@ -1,5 +1,5 @@
 /* This file reads, prints and describes the types of options of nodes: the name of a node, a
- * position, the points of a path. */
+ * position, the points of a path, a box that may lie in a node. */
 #include <string.h>
 
 #include "option/animated.h"
@@ -45,6 +45,97 @@ const struct kiln_option_type kiln_type_attach = {
     .print = print_attach,
     .describe = describe_attach,
     .schema = schema_attach,
+};
+
+/* ---- demitter: bounds, and perhaps `attach` ----------------------------------------------------
+ */
+
+/* Copies a mapping without one of its keys. */
+static const struct kiln_node *without(struct kiln_reader *reader, const struct kiln_node *node,
+                                       const char *key)
+{
+    struct kiln_node *rest = kiln_node_create_map(reader->scratch, node->origin);
+    bool ok = rest != NULL;
+    for (const struct kiln_node *entry = node->first; ok && entry; entry = entry->next) {
+        if (strcmp(entry->key->text, key) == 0)
+            continue;
+        struct kiln_node *copy = kiln_arena_alloc(reader->scratch, 1, sizeof *copy);
+        ok = copy != NULL;
+        if (!ok)
+            break;
+        *copy = *entry;
+        copy->next = NULL;
+        kiln_node_append(rest, copy);
+    }
+    if (!ok) {
+        kiln_reader_out_of_memory(reader);
+        return NULL;
+    }
+    rest->line = node->line;
+    rest->column = node->column;
+    rest->via = node->via;
+    return rest;
+}
+
+static bool read_demitter(struct kiln_reader *reader, const struct kiln_option *option,
+                          const struct kiln_node *node, void *field)
+{
+    struct kiln_demitter *demitter = field;
+    const struct kiln_option attach = {.type = &kiln_type_attach, .special_word = "none"};
+    const struct kiln_node *name = kiln_node_entry(node, "attach");
+    *demitter = (struct kiln_demitter){.attach = {.name = NULL}};
+    if (name) {
+        const size_t before = kiln_reader_enter(reader, "attach");
+        if (!attach.type->read(reader, &attach, name, &demitter->attach))
+            return false;
+        kiln_reader_leave(reader, before);
+        node = without(reader, node, "attach");
+    }
+    return node && kiln_type_bounds.read(reader, option, node, &demitter->box);
+}
+
+static void print_demitter(struct kiln_printer *printer, const struct kiln_option *option,
+                           const void *field)
+{
+    const struct kiln_demitter *demitter = field;
+    struct kiln_printer box = {.indent = 0};
+    if (!demitter->attach.name) {
+        kiln_type_bounds.print(printer, option, &demitter->box);
+        return;
+    }
+    kiln_type_bounds.print(&box, option, &demitter->box);
+    kiln_text_add(&printer->text, " {attach: ");
+    kiln_print_quoted(printer, demitter->attach.name);
+    kiln_text_add(&printer->text, ", %s", box.text.data ? box.text.data + strlen(" {") : "");
+    printer->text.failed |= box.text.failed;
+    kiln_text_free(&box.text);
+}
+
+static void describe_demitter(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_type_bounds.describe(option, out);
+}
+
+static void schema_demitter(const struct kiln_option *option, struct kiln_text *out)
+{
+    static const char corner[] = "\"%s\": {\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, "
+                                 "\"items\": %s}, ";
+    struct kiln_text number = {0};
+    kiln_schema_number(option, &number);
+    kiln_text_add(out, "{\"type\": \"object\", \"required\": [\"min\", \"max\"], "
+                       "\"additionalProperties\": false, \"properties\": {");
+    kiln_text_add(out, corner, "min", number.data ? number.data : "");
+    kiln_text_add(out, corner, "max", number.data ? number.data : "");
+    kiln_text_add(out, "\"attach\": {\"type\": \"string\", \"minLength\": 1}}}");
+    out->failed |= number.failed;
+    kiln_text_free(&number);
+}
+
+const struct kiln_option_type kiln_type_demitter = {
+    .read = read_demitter,
+    .print = print_demitter,
+    .describe = describe_demitter,
+    .schema = schema_demitter,
 };
 
 /* ---- place: a vector that may vary, or a mapping with a path --------------------------------- */

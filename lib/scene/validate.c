@@ -10,6 +10,8 @@
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
 #include "scene/asset_path.h"
+#include "scene/baked.h"
+#include "scene/emit_way.h"
 #include "scene/family.h"
 #include "scene/impacts.h"
 #include "scene/instant.h"
@@ -21,6 +23,7 @@
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
 #include "scene/scene_births.h"
+#include "scene/source.h"
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
@@ -274,7 +277,8 @@ static const char *shape_name(const struct kiln_emitter *emit)
         [KILN_EMITTER_POINT] = "point", [KILN_EMITTER_SPHERE] = "sphere",
         [KILN_EMITTER_BOX] = "box",     [KILN_EMITTER_DISC] = "disc",
         [KILN_EMITTER_CONE] = "cone",   [KILN_EMITTER_LINE] = "line",
-        [KILN_EMITTER_RING] = "ring",
+        [KILN_EMITTER_RING] = "ring",   [KILN_EMITTER_MESH] = "mesh",
+        [KILN_EMITTER_IMAGE] = "image", [KILN_EMITTER_PATH] = "path",
     };
     return names[emit->shape];
 }
@@ -296,15 +300,13 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
 static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
                           const struct kiln_system *system)
 {
-    char path[128];
-    for (uint32_t i = 0; i < system->force_count; i++) {
-        const struct kiln_force_region *region = &system->forces[i].region;
-        const struct kiln_option_kind *kind = kiln_force_kinds;
-        while (kind->value != (int)system->forces[i].kind)
-            kind++;
-        snprintf(path, sizeof path, "systems.%s.forces.%u.%s.region", system->name, i, kind->name);
-        if (region->enabled && region->box == region->sphere)
-            return kiln_reader_error_at(reader, root, path, "must have one of `box` and `sphere`");
+    char path[128], key[160];
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++) {
+        kiln_system_force_path(system, i, path, sizeof path);
+        snprintf(key, sizeof key, "%s.region", path);
+        if (force->region.enabled && force->region.box == force->region.sphere)
+            return kiln_reader_error_at(reader, root, key, "must have one of `box` and `sphere`");
     }
     return true;
 }
@@ -314,16 +316,20 @@ static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *r
                            struct kiln_system *system)
 {
     struct kiln_collide *collide = &system->collide;
+    const bool stops = collide->then >= KILN_THEN_STOP;
+    const char *word = collide->then == KILN_THEN_STICK ? "stick" : "stop";
     char path[128];
     if (!kiln_impacts_agree(reader, root, system))
         return false;
     snprintf(path, sizeof path, "systems.%s.collide.then", system->name);
-    if (collide->dies && collide->then == KILN_THEN_STOP)
-        return kiln_reader_error_at(reader, root, path, "must not be stop where `dies` is true");
-    if (collide->enabled && collide->then == KILN_THEN_STOP && system->interaction_count > 0)
+    if (collide->dies && stops)
+        return kiln_reader_error_at(reader, root, path, "must not be %s where `dies` is true",
+                                    word);
+    if (collide->enabled && stops && system->interaction_count > 0)
         return kiln_reader_error_at(reader, root, path,
-                                    "must not be stop where particles interact, since nothing "
-                                    "pushes a particle that has stopped");
+                                    "must not be %s where particles interact, since nothing "
+                                    "pushes a particle that has stopped",
+                                    word);
     collide->dies |= collide->then == KILN_THEN_DIE;
     if (collide->dies)
         collide->then = KILN_THEN_DIE;
@@ -584,6 +590,7 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && kiln_nodes_settle(reader, root) &&
            check_camera(reader, root) && check_backdrop(reader, root) &&
            check_systems(reader, root) && kiln_family_settle(reader, root) &&
+           kiln_sources_settle(reader, root) && kiln_emit_ways_settle(reader, root) &&
            settle_capacity(reader, root) && kiln_particle_mesh_count(reader, root) &&
            kiln_samples_settle(reader, root);
 }

@@ -13,6 +13,7 @@
 #include "shared/derived.h"
 #include "shared/spin.h"
 
+/* Returns a particle at another place, with another velocity unless it has stopped. */
 FN S(kiln_particle) between_with_motion(S(kiln_particle) p, float3 position, float3 velocity)
 {
     S(kiln_particle) moved;
@@ -20,6 +21,8 @@ FN S(kiln_particle) between_with_motion(S(kiln_particle) p, float3 position, flo
                                   FLOAT_BITS(position.z), p.position_serial.w);
     moved.velocity_birth = UINT4(FLOAT_BITS(velocity.x), FLOAT_BITS(velocity.y),
                                  FLOAT_BITS(velocity.z), p.velocity_birth.w);
+    if (particle_has_stopped(p))
+        moved.velocity_birth = p.velocity_birth;
     return moved;
 }
 
@@ -47,8 +50,8 @@ FN float3 between_mix(float3 a, float3 b, float at)
 }
 
 /* Returns the particle of a slot `back` steps before the end of step `step`; before, after: its
- * records at the start and at the end of this step. It is not alive if it is not born yet or dead.
- */
+ * records at the start and at the end of this step. It is not alive if it is not born yet or dead;
+ * what is left of a dead particle stays. */
 FN S(kiln_particle) particle_between(VALUE_KEYS_PARAM S(kiln_derived_params) d,
                                      S(kiln_particle) before, S(kiln_particle) after, uint step,
                                      float back)
@@ -77,13 +80,13 @@ FN S(kiln_particle) particle_between(VALUE_KEYS_PARAM S(kiln_derived_params) d,
         EXACT float age_s = particle_age_before(before, step, back, d.dt_s);
         EXACT float life_s = particle_life_s(VALUE_KEYS d, before);
         if (age_s >= life_s)
-            return between_none();
+            return after;
         position = particle_position(before);
         velocity = particle_velocity(before);
         position = float3_add_scaled(position, velocity, time_s);
         return between_with_motion(before, position, velocity);
     }
-    return between_none();
+    return after;
 }
 
 /* Returns the spin of a slot at that time: its pose is turned by its rate, which is constant in a

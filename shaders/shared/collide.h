@@ -218,6 +218,7 @@ struct collide_touch {
     float since;     /* part of the step before the impact */
     float reach;     /* m: distance from the surface to the position */
     uint face;       /* face, for collide_normal_of */
+    uint number;     /* of the collider */
     bool happened;
 };
 
@@ -235,11 +236,12 @@ FN S(collide_touch) collide_no_touch(void)
     touch.since = 0.0f;
     touch.reach = 0.0f;
     touch.face = 0u;
+    touch.number = 0u;
     touch.happened = false;
     return touch;
 }
 
-FN S(collide_touch) collide_touched(S(collide_state) s, uint face)
+FN S(collide_touch) collide_touched(S(collide_state) s, uint number, uint face)
 {
     EXACT S(collide_touch) touch;
     touch.position = s.position;
@@ -247,6 +249,7 @@ FN S(collide_touch) collide_touched(S(collide_state) s, uint face)
     touch.since = s.since;
     touch.reach = 0.0f;
     touch.face = face;
+    touch.number = number;
     touch.happened = true;
     return touch;
 }
@@ -484,9 +487,10 @@ FN S(collide_way) collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float 
             EXACT S(collide_state) before = now;
             now = collide_field_clamp(SIM now, c, draw);
             if (impacts == 1u)
-                way.first = collide_touched(now, collide_face_met(SIM i, answer.radius,
-                                                                  collide_seen_from(c, before, now),
-                                                                  COLLIDE_SURFACE));
+                way.first = collide_touched(now, i,
+                                            collide_face_met(SIM i, answer.radius,
+                                                             collide_seen_from(c, before, now),
+                                                             COLLIDE_SURFACE));
 #endif
         } else if (inside && COLLIDE_IS_ORIENTED(c)) {
             uint nearest = collide_oriented_nearest(SIM i, answer.radius, until, now.position);
@@ -498,7 +502,7 @@ FN S(collide_way) collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float 
             EXACT float3 bounced = collide_bounce_off(draw, now.velocity, contact.normal, true);
             now = collide_stay(draw, now, bounced, contact.normal);
             if (impacts == 1u)
-                way.first = collide_touched(now, collide_pack_normal(contact.normal));
+                way.first = collide_touched(now, i, collide_pack_normal(contact.normal));
         } else if (inside && COLLIDE_IS_ROUND(c)) {
             EXACT S(collide_round) shape = collide_round_at(c, until);
             uint side = collide_round_nearest(c.kind, shape, now.position);
@@ -509,14 +513,14 @@ FN S(collide_way) collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float 
             EXACT float3 bounced = collide_bounce_off(draw, now.velocity, normal, true);
             now = collide_stay(draw, now, bounced, normal);
             if (impacts == 1u)
-                way.first = collide_touched(now, collide_pack_normal(normal));
+                way.first = collide_touched(now, i, collide_pack_normal(normal));
         } else if (inside) {
             uint face = collide_nearest_face(box, now.position);
             draw.purpose = collide_purpose(SIM impacts & 7u);
             impacts++;
             now = collide_box_clamp(box, now, face, draw);
             if (impacts == 1u)
-                way.first = collide_touched(now, face);
+                way.first = collide_touched(now, i, face);
         }
     }
     way.end = now;

@@ -14,13 +14,19 @@ FN uint particle_stream(S(kiln_derived_params) d, S(kiln_particle) p)
     return random_stream(d.random_key, p.position_serial.w);
 }
 
+/* Returns the clip time after a part of the step of a particle's birth, s. */
+FN float particle_birth_time_at(S(kiln_derived_params) d, S(kiln_particle) p, float part)
+{
+    EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
+    EXACT float steps = before + part;
+    EXACT float time_s = steps * d.dt_s;
+    return time_s;
+}
+
 /* Returns the clip time of a particle's birth, s. */
 FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
 {
-    EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
-    EXACT float steps = before + particle_birth_fraction(p);
-    EXACT float time_s = steps * d.dt_s;
-    return time_s;
+    return particle_birth_time_at(d, p, particle_birth_fraction(p));
 }
 
 /* Returns the length of a particle's life, s. */
@@ -41,6 +47,25 @@ FN float particle_progress(float age_s, float life_s)
     EXACT float part = exact_div(age_s, life_s);
     EXACT float progress = exact_clamp(part, 0.0f, 1.0f);
     return progress;
+}
+
+/* Returns the clocks of a particle with those of its parent at its birth, which its look may
+ * inherit. of_parent: the parameters of the parent's system; parent: the parent, or what is left of
+ * it. */
+FN S(value_clocks) particle_clocks_of_child(VALUE_KEYS_PARAM S(value_clocks) clocks,
+                                            S(kiln_derived_params) of_parent,
+                                            S(kiln_particle) parent, S(kiln_particle) child)
+{
+    EXACT S(value_clocks) y = clocks;
+    EXACT float life_s = particle_life_s(VALUE_KEYS of_parent, parent);
+    EXACT float whole = FLOAT(particle_birth_step(child) - particle_birth_step(parent));
+    EXACT float part = particle_birth_fraction(child) - particle_birth_fraction(parent);
+    EXACT float steps = whole + part;
+    EXACT float age_s = steps * of_parent.dt_s;
+    y.parent_age_s = exact_max(age_s, 0.0f);
+    y.parent_life = particle_progress(y.parent_age_s, life_s);
+    y.parent_stream = particle_stream(of_parent, parent);
+    return y;
 }
 
 #endif

@@ -91,6 +91,9 @@
 #define KILN_CELL_PLAIN 2u /* no texture: a rectangle... */
 #define KILN_CELL_DISC  3u /* ...or a disc, whose edges are as sharp as pixels allow */
 
+/* The texture unit of the colours of what particles are born on (shared/source.h). */
+#define KILN_UNIT_SOURCES 20
+
 /* The part of the sun that each particle sees past the backdrop (lib/draw/light/sun_shade.h), by
  * its slot: a texture unit, and the slots in a row of the texture. */
 #define KILN_UNIT_SUN_SHADE 10

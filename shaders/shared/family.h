@@ -5,7 +5,7 @@
 #ifndef KILN_SHARED_FAMILY_H
 #define KILN_SHARED_FAMILY_H
 
-#include "shared/trace.h"
+#include "shared/family_way.h"
 
 /* Returns the 64ths of the step that have passed at the part `since` of it, at least `least`: the
  * form in which a birth word has a time. */
@@ -22,6 +22,14 @@ struct family_event {
     float since; /* part of the step before the event */
     bool happens;
 };
+
+FN S(family_event) family_no_event(void)
+{
+    EXACT S(family_event) e;
+    e.since = 0.0f;
+    e.happens = false;
+    return e;
+}
 
 /* Does family_number_at for a rate that varies. */
 FN_APART float family_number_of_keys(SIM_PARAM S(kiln_trace) t, float part, float progress)
@@ -63,9 +71,44 @@ FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
     return e;
 }
 
-/* Returns how many children are born of an event of a parent. The parent's serial and the system of
- * the children decide. */
-FN uint family_count(SIM_PARAM S(kiln_trace) t)
+#if FAMILY_HAS_WAYS
+
+/* Finds the birth of child j of the parent in a slot. It is born when the parent has travelled j +
+ * 1 of the distances between two children: where this happens on the two straight pieces of its
+ * way, each of which it goes along evenly. */
+FN S(family_event) family_by_way(SIM_PARAM S(kiln_trace) t, uint parent, uint j)
+{
+    EXACT S(family_event) e = family_no_event();
+    EXACT float target = FLOAT(j + 1u);
+    EXACT float per_metre = STEP(family.per_metre);
+    S(family_way) way = family_way_at(SIM STEP(family.parent_ways) + parent);
+    EXACT float after = family_way_count(way, per_metre);
+    if (target > after)
+        return e;
+    EXACT S(family_pieces) pieces = family_pieces_of(t);
+    EXACT float length = pieces.first + pieces.second;
+    way = family_way_sub(way, family_way_of(length));
+    EXACT float before = family_way_count(way, per_metre);
+    EXACT float part = exact_div(target - before, after - before);
+    EXACT float gone = length * exact_clamp(part, 0.0f, 1.0f);
+    EXACT float from = t.start.w;
+    EXACT float to = (t.serial_event.y & TRACE_TURN) != 0u ? t.turn.w : t.end.w;
+    EXACT float along = exact_div(gone, pieces.first);
+    if (gone > pieces.first) {
+        from = to;
+        to = t.end.w;
+        along = exact_div(gone - pieces.first, pieces.second);
+    }
+    e.since = from + (to - from) * exact_clamp(along, 0.0f, 1.0f);
+    e.happens = before < target;
+    return e;
+}
+
+#endif
+
+/* Returns how many children are born of an event of a parent. The parent's serial, the system of
+ * the children and the number of the event decide: each impact draws its own. */
+FN uint family_count(SIM_PARAM S(kiln_trace) t, uint number)
 {
     uint fewest = STEP(family.fewest);
     uint most = STEP(family.most);
@@ -73,37 +116,58 @@ FN uint family_count(SIM_PARAM S(kiln_trace) t)
         return most;
     uint stream = random_stream(STEP(derived.random_key), t.serial_event.x);
     EXACT float choices = FLOAT(most - fewest + 1u);
-    EXACT float drawn = random_unit(stream, RANDOM_CHILDREN) * choices;
+    EXACT float drawn = random_unit(stream, RANDOM_CHILDREN + number) * choices;
     uint more = UINT(drawn);
     uint count = fewest + more;
     return count < most ? count : most;
 }
 
-FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
+/* Returns whether child j is born of the impact in this step. Each impact has slots for the most
+ * children. */
+FN bool family_is_of_hit(SIM_PARAM S(kiln_trace) t, uint j)
 {
-    EXACT S(family_event) e;
-    e.since = 0.0f;
-    e.happens = false;
+    uint hit = t.serial_event.y >> TRACE_HITS_SHIFT;
+    uint most = STEP(family.most);
+    return j / most == hit && j % most < family_count(SIM t, hit);
+}
+
+/* Returns the event at which the child of a slot is born. t: the trace of its parent. */
+FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint slot)
+{
+    EXACT S(family_event) e = family_no_event();
+    uint j = slot % STEP(family.slots);
     uint what = t.serial_event.y;
+#if FAMILY_HAS_WAYS
+    if (USES(USES_BIRTHS, BORN_OF_WAY) && STEP(family.born_of) == BORN_OF_WAY) {
+        if ((what & TRACE_ALIVE) != 0u)
+            e = family_by_way(SIM t, slot / STEP(family.slots), j);
+        return e;
+    }
+#endif
     if (USES(USES_BIRTHS, BORN_OF_TRAIL) && STEP(family.born_of) == BORN_OF_TRAIL) {
         if ((what & TRACE_ALIVE) != 0u)
             e = family_trail(SIM t, j);
     } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
         e.since = t.turn.w;
-        e.happens = (what & TRACE_BOUNCE) != 0u && j < family_count(SIM t);
+        e.happens = (what & TRACE_TURN) != 0u && family_is_of_hit(SIM t, j);
     } else {
         e.since = t.end.w;
         uint deaths = STEP(family.impacts) != 0u ? TRACE_DEATH | TRACE_FATAL : TRACE_DEATH;
-        e.happens = (what & deaths) != 0u && j < family_count(SIM t);
+        e.happens = (what & deaths) != 0u && j < family_count(SIM t, 0u);
     }
     return e;
 }
+
+/* Whether children are born along the way of their parents. */
+#define FAMILY_TRAILS                                                                              \
+    ((USES(USES_BIRTHS, BORN_OF_TRAIL) || USES(USES_BIRTHS, BORN_OF_WAY)) &&                       \
+     STEP(family.born_of) >= BORN_OF_TRAIL)
 
 /* Returns the parent's place and velocity at the event. */
 FN S(emit_state) family_parent_at(SIM_PARAM S(kiln_trace) t, float since)
 {
     EXACT S(emit_state) s;
-    if (USES(USES_BIRTHS, BORN_OF_TRAIL) && STEP(family.born_of) == BORN_OF_TRAIL) {
+    if (FAMILY_TRAILS) {
         s = trace_at(t, since);
     } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
         s.position = trace_vector(t.turn);

@@ -12,6 +12,7 @@
 #include "shared/force_limit.h"
 #include "shared/force_region.h"
 #include "shared/force_wind.h"
+#include "shared/still_frame.h"
 
 #define FORCES(ROW)                                                                                \
     ROW(FORCE_GRAVITY, force_gravity)                                                              \
@@ -22,8 +23,11 @@
 #if defined(GL_core_profile) && !defined(GRIDS)
 #define FORCES_OF_GRIDS(ROW)
 #else
+#include "shared/force_baked.h"
 #include "shared/force_field.h"
-#define FORCES_OF_GRIDS(ROW) ROW(FORCE_FIELD, force_field)
+#define FORCES_OF_GRIDS(ROW)                                                                       \
+    ROW(FORCE_FIELD, force_field)                                                                  \
+    ROW(FORCE_BAKED, force_baked)
 #endif
 
 #ifdef FORCES_ALL
@@ -62,19 +66,42 @@ FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
     return y;
 }
 
-/* Returns the effect of force i at a place, where the force acts in a region alone. */
-FN S(force_effect) forces_in_region(SIM_PARAM uint i, float3 position, S(force_effect) effect)
+/* Returns whether force i is summed up alone before it is added to the others: it lies in a node,
+ * out of which its effect must be turned, or it acts in a region alone. */
+FN bool forces_stand_apart(SIM_PARAM uint i)
 {
-    EXACT float weight =
-        force_region_weight(position, STEP(forces[i].region), STEP(forces[i].region_center),
-                            STEP(forces[i].region_size));
-    EXACT S(force_effect) alone = forces_add(force_none(), effect);
-    EXACT S(force_effect) y = force_region_fade(alone, weight);
+    bool attached = USES(USES_FORCES, FORCE_IN_NODE) && STEP(forces[i].frame.at.w) > 0.0f;
+    return attached ||
+           (USES(USES_FORCES, FORCE_IN_REGION) && STEP(forces[i].region) != REGION_NONE);
+}
+
+/* Returns how much of force i is left at a place in the world. */
+FN float forces_weight(SIM_PARAM uint i, float3 position)
+{
+    EXACT float3 at = position;
+    if (USES(USES_FORCES, FORCE_IN_NODE) && still_frame_is(STEP(forces[i].region_frame)))
+        at = still_frame_inside(STEP(forces[i].region_frame), position);
+    EXACT float weight = force_region_weight(
+        at, STEP(forces[i].region), STEP(forces[i].region_center), STEP(forces[i].region_size));
+    return weight;
+}
+
+/* Returns the effect in the world of force i, which stands apart, at a place in the world.
+ * effect: in the node of the force. */
+FN S(force_effect) forces_apart(SIM_PARAM uint i, float3 position, S(force_effect) effect)
+{
+    EXACT S(force_effect) y = forces_add(force_none(), effect);
+    if (USES(USES_FORCES, FORCE_IN_NODE) && STEP(forces[i].frame.at.w) > 0.0f)
+        y.acceleration = float3_turn(STEP(forces[i].frame.turn), y.acceleration);
+    if (USES(USES_FORCES, FORCE_IN_REGION) && STEP(forces[i].region) != REGION_NONE) {
+        EXACT float weight = forces_weight(SIM i, position);
+        y = force_region_fade(y, weight);
+    }
     return y;
 }
 
-/* Returns the input of force i for a particle at a place. values: the force's options that vary
- * over the particle's life. */
+/* Returns the input of force i for a particle at a place in the node of the force. values: the
+ * force's options that vary over the particle's life. */
 FN S(force_input) force_input_of(SIM_PARAM uint i, float3 position, S(force_values) values)
 {
     EXACT S(force_input) force;
@@ -106,10 +133,15 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float3 velocity, S(valu
             VALUE_OF(KEYED_FORCE_QUADRATIC, SIM_KEYS STEP(forces[i].quadratic), here);
 #endif
         values.scale = VALUE_OF(KEYED_FORCE_SCALE, SIM_KEYS STEP(forces[i].scale), here);
-        EXACT S(force_input) force = force_input_of(SIM i, position, values);
+        EXACT float3 at = position;
+        if (USES(USES_FORCES, FORCE_IN_NODE) && still_frame_is(STEP(forces[i].frame))) {
+            at = still_frame_inside(STEP(forces[i].frame), position);
+            values.scale = values.scale * STEP(forces[i].frame.at.w);
+        }
+        EXACT S(force_input) force = force_input_of(SIM i, at, values);
         EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);
-        if (USES(USES_FORCES, FORCE_IN_REGION) && STEP(forces[i].region) != REGION_NONE)
-            effect = forces_in_region(SIM i, position, effect);
+        if (forces_stand_apart(SIM i))
+            effect = forces_apart(SIM i, position, effect);
         sum = forces_add(sum, effect);
     }
     return sum;

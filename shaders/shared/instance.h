@@ -16,13 +16,13 @@ struct instance_axes {
 };
 
 /* Returns the angle, rad, by which a particle has turned, from its rotation and its mean spin so
- * far (KILN_LOOK_TURN and KILN_LOOK_SPREAD of the look). */
-FN float instance_angle(uint stream, float4 turn, float4 spread, float age_s)
+ * far (KILN_LOOK_TURN and KILN_LOOK_SPREAD of the look). turned_s: particle_turned_s. */
+FN float instance_angle(uint stream, float4 turn, float4 spread, float turned_s)
 {
     EXACT float angle = random_between(stream, RANDOM_ROTATION, turn.x, turn.y);
     EXACT float spin = random_between(stream, RANDOM_SPIN, spread.z, spread.w);
     EXACT float side = random_unit(stream, RANDOM_SPIN + 1u);
-    EXACT float spun = spin * age_s;
+    EXACT float spun = spin * turned_s;
     angle = side < 0.5f ? angle - spun : angle + spun;
     return angle;
 }

@@ -10,13 +10,17 @@
 #include "shared/platform.h"
 #include "shared/value.h"
 
+#define BIRTHS_BY_RATE 0u /* the place of a birth is that at the 64th of the step before it */
+#define BIRTHS_BY_WAY  1u /* the place of a birth is that at its very time */
+#define BIRTHS_BURST   2u /* all are born at one time */
+
 /* Births of one step at equal distances in time. Birth j of a group happens at (first + j *
  * spacing) / 2^32 of the step. */
 struct kiln_birth_group {
     uint count;
     uint first;
     uint spacing;
-    uint unused;
+    uint kind; /* BIRTHS_* */
 };
 
 /* Parameters by which the values of a particle that its record lacks are recomputed: see
@@ -35,9 +39,24 @@ struct kiln_derived_params {
 #define EMIT_DISC   3u
 #define EMIT_CONE   4u
 #define EMIT_LINE   5u
+/* These look up words in the buffer of the grids (shared/source.h). */
+#define EMIT_TRIANGLES 6u
+#define EMIT_VERTICES  7u
+#define EMIT_IMAGE     8u
+#define EMIT_PATH      9u
+#define EMIT_POSED     10u /* triangles of a mesh with an animation */
+#define EMIT_COLUMNS   11u /* the inside of a mesh */
 
-/* The bit of USES_EMITTERS for emitters that lie in nodes. */
+/* The bits of USES_EMITTERS for particles that move with nodes, and for emitters whose bursts are
+ * in order, and that lie in nodes. */
+#define EMIT_CARRIED  29u
+#define EMIT_ORDERED  30u
 #define EMIT_ATTACHED 31u
+
+/* How the births of a burst lie along a shape. */
+#define ORDER_RANDOM 0u
+#define ORDER_OPEN   1u /* from its first end to its last */
+#define ORDER_CLOSED 2u /* all around, so the last is next to the first */
 
 /* The frame of the node that an emitter lies in, during a step. After the part u of the step, its
  * place is a cubic of u, and it has turned by u times the angle of `spin`. */
@@ -48,6 +67,14 @@ struct kiln_emit_frame {
     float4 cube;   /* m: factor of u^3 */
     float4 pose;   /* from the frame to the world at the start: a unit quaternion */
     float4 spin;   /* unit axis; w: the angle by which the step turns the frame, rad */
+};
+
+/* How a node carries the particles of a system in a step: see carry.h. */
+struct kiln_carry {
+    S(kiln_emit_frame) frame;
+    float4 end;   /* m: place of the frame at the end; w: 1: it jumps there */
+    float4 whole; /* how it turns in the whole step, with a jump: a unit quaternion */
+    float4 jump;  /* how a jump turns it at the end of the step: a unit quaternion */
 };
 
 struct kiln_emit_params {
@@ -63,9 +90,17 @@ struct kiln_emit_params {
     S(kiln_value) radius;
     S(kiln_value) inherit;
     S(kiln_value) turn;
-    uint attached; /* 1: the emitter lies in `frame` */
-    uint unused0, unused1, unused2;
+    uint attached;   /* 1: the emitter lies in `frame` */
+    uint first_word; /* of the cells of a mesh, an image or a path, in the buffer of the grids */
+    uint cells;      /* how many there are to choose from */
+    uint order;      /* ORDER_* */
     S(kiln_emit_frame) frame;
+};
+
+/* The frame of a node at one time (still_frame.h). */
+struct kiln_still_frame {
+    float4 at;   /* m: its place; w: metres in one unit of the frame, 0: there is no frame */
+    float4 turn; /* from the frame to the world: a unit quaternion */
 };
 
 #define FORCE_GRAVITY 0u
@@ -76,6 +111,7 @@ struct kiln_emit_params {
 #define FORCE_FIELD   5u
 #define FORCE_ATTRACT 6u
 #define FORCE_VORTEX  7u
+#define FORCE_BAKED   8u
 
 /* How an attraction falls off with the distance. */
 #define FALLOFF_INVERSE_SQUARE 0u
@@ -97,19 +133,22 @@ struct kiln_emit_params {
 struct kiln_force_params {
     uint kind;
     uint octaves;
-    uint grid;               /* number of the grid of a field */
+    uint grid;               /* number of the grid of a field or of a baked wind */
     uint profile;            /* a word of the kind: FALLOFF_* or VORTEX_* */
     S(kiln_value3) vector;   /* an acceleration, a velocity of the air, or a point */
     S(kiln_value3) second;   /* curl: drift; vortex: axis */
     S(kiln_value) strength;  /* limit and vortex: speed */
     S(kiln_value) pull;      /* 1/s */
     S(kiln_value) quadratic; /* 1/m */
-    S(kiln_value) scale;     /* curl: size of the eddies; attract, vortex: radius; m */
-    float inward, lift;      /* m/s */
+    /* curl: size of the eddies; attract, vortex: radius; m; field, baked: 0, or 1 in a node */
+    S(kiln_value) scale;
+    float inward, lift; /* m/s */
     float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
     uint region; /* REGION_* */
-    float4 region_center; /* m; w: over how many metres inside of the border the force fades */
-    float4 region_size;   /* m: half of the edges of a box; x: radius of a sphere */
+    float4 region_center;      /* m; w: over how many metres inside of the border the force fades */
+    float4 region_size;        /* m: half of the edges of a box; x: radius of a sphere */
+    S(kiln_still_frame) frame; /* which the force lies in */
+    S(kiln_still_frame) region_frame; /* which its region lies in */
 };
 
 #define INTEGRATE_SEMI_IMPLICIT  0u
@@ -129,7 +168,8 @@ struct kiln_force_params {
 #define BORN_OF_CLOCK  0u
 #define BORN_OF_DEATH  1u
 #define BORN_OF_BOUNCE 2u
-#define BORN_OF_TRAIL  3u
+#define BORN_OF_TRAIL  3u /* of the parent's life, evenly in time */
+#define BORN_OF_WAY    4u /* of the parent's life, evenly along its way */
 
 /* The direction of an emitter's y axis at a birth from a parent. */
 #define ALIGN_WORLD    0u
@@ -140,6 +180,7 @@ struct kiln_force_params {
 #define THEN_BOUNCE 0u
 #define THEN_DIE    1u
 #define THEN_STOP   2u
+#define THEN_STICK  3u
 
 /* How a system is related to others: see family.h. */
 struct kiln_family_params {
@@ -151,8 +192,13 @@ struct kiln_family_params {
     uint traces;        /* index of its own first trace */
     uint then;          /* THEN_* */
     uint impacts;       /* 1: a parent's death at an impact counts as a death */
-    uint fewest, most;  /* death, bounce: children of a parent, drawn between the two */
-    uint unused0, unused1;
+    uint fewest, most;  /* death, bounce: children of an event, drawn between the two */
+    uint counted;     /* the impacts that its particles count: 1, or up to the last with children */
+    uint travels;     /* 1: its particles have ways (family_way.h) */
+    uint ways;        /* row of its first way among spins and ways */
+    uint parent_ways; /* that of the parent system */
+    float per_metre;  /* way: children a metre of the parent's way */
+    uint keeps;       /* 1: the dead keep serial and birth, by which children know their looks */
     S(kiln_value) rate;   /* trail: children a second of the parent's life */
     S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };
@@ -193,9 +239,13 @@ struct kiln_step_params {
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];
     float4 demitter_max[KILN_MAX_DEMITTERS];
+    S(kiln_still_frame) demitter_frames[KILN_MAX_DEMITTERS]; /* which they lie in */
     S(kiln_birth_group) groups[KILN_MAX_BIRTH_GROUPS];
     S(kiln_force_params) forces[KILN_MAX_FORCES];
     S(kiln_family_params) family;
+    uint carried; /* 1: particles of the system move with a node */
+    uint unused0, unused1, unused2;
+    S(kiln_carry) carry;
 };
 
 #define COLLIDER_BOX      0u
@@ -217,6 +267,8 @@ struct kiln_step_params {
 /* A collider at the start and at the end of the step; it moves and turns evenly in between. min and
  * max are the whole shape of a box along the axes, and bounds of all others. */
 struct kiln_collider {
+    /* bounds at the start and at the end; the w of the first three, unless it is terrain or a mesh:
+     * the rotation of the step, axis times angle, rad, by which it carries what rides on it */
     float4 min, max;
     float4 min_end, max_end;
     /* all but boxes along the axes; w: radius; of a collider with a grid, w is the radius of the
@@ -256,7 +308,8 @@ struct kiln_pose {
 struct kiln_grid {
     float4 origin;    /* m: place of the first sample */
     float4 per_metre; /* samples a metre, along each axis */
-    float4 low, high; /* m: depth maps only: corners of the box around all maps */
+    float4 low, high; /* m: depth maps: corners of the box around all maps; baked winds: high is
+                       * from one sample to the next along each axis */
     uint4 size;       /* samples along each axis, at least 2; w: index of the first word */
 };
 
@@ -293,7 +346,7 @@ struct kiln_sim {
     const float4 *value_keys;
     const float4 *grid_words;
     const float4 *push_words; /* NULL if no system interacts */
-    uint4 *spin_words;        /* NULL if no system spins; each slot writes its own */
+    uint4 *spin_words;        /* spins and ways; NULL if there are none; each slot writes its own */
     const float4 *volume_words;
 };
 #define SIM            sim,

@@ -22,20 +22,24 @@
 /* Lights of fire, in addition to a scene's lights. */
 #define KILN_MAX_FIRE_LIGHTS 16
 
-/* The groups of births of a step: one of the rate and one of each burst. */
-#define KILN_MAX_BIRTH_GROUPS 65
+/* The groups of births of a step: one of the rate, one of the way and one of each burst. */
+#define KILN_MAX_BIRTH_GROUPS 66
 
 /* Colliders: objects and the floor. */
 #define KILN_MAX_COLLIDERS 257
 
-#define KILN_MAX_WINDS 8                                  /* wind files of a scene */
-#define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* wind and colliders */
+#define KILN_MAX_WINDS    8  /* wind files of a scene */
+#define KILN_MAX_BAKED    8  /* baked winds of a scene */
+#define KILN_MAX_BAKED_OF 12 /* forces of a baked wind */
+
+/* Grids of winds and of colliders. */
+#define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_BAKED + KILN_MAX_MESHES)
 
 /* The most of each kind with which struct kiln_surroundings lies in a uniform block of 16 KiB. With
  * more, it lies in a storage block (SURROUNDINGS_STORED). */
 #define KILN_BLOCK_COLLIDERS 33
 #define KILN_BLOCK_MESHES    8
-#define KILN_BLOCK_GRIDS     (KILN_MAX_WINDS + KILN_BLOCK_MESHES)
+#define KILN_BLOCK_GRIDS     (KILN_MAX_WINDS + KILN_MAX_BAKED + KILN_BLOCK_MESHES)
 
 /* Kinds of interaction; a system has at most one of each. */
 #define KILN_MAX_INTERACTIONS 4
@@ -61,6 +65,11 @@
 #define SIM_AT_BASE       1
 #define SIM_AT_USED       2
 #define SIM_AT_FIRST_SPIN 3
+
+/* Locations of uniforms of the kernel that writes baked winds. */
+#define SIM_AT_GRID      0
+#define SIM_AT_NODE      1
+#define SIM_AT_NODE_TURN 2
 
 /* Blocks of the kernels that compute pushes, which also use SIM_BIND_KEYS, _RECORDS and _PUSHES. */
 #define INTERACT_BIND_PARAMS   3 /* uniform block */

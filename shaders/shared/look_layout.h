@@ -41,7 +41,12 @@
 #define LOOK_PART_STEPS      1u /* each texel holds until the x of the next, which its w has */
 #define LOOK_PART_LOOPS      2u
 #define LOOK_PART_MIRRORS    4u
+#define LOOK_PART_PARENT     8u /* its clock is that of the parent at the particle's birth */
 #define LOOK_PART_FLAG_SHIFT 4u
+
+/* The clock of a part that is the colour of what the particle was born on (shared/source.h): its
+ * row is the first texel of the source, and its number of octaves that of the source's cells. */
+#define LOOK_CLOCK_SOURCE 15u
 
 /* enum kiln_shape and enum kiln_facing of the scene. */
 #define LOOK_POINT     1u
@@ -61,13 +66,22 @@
 #define LOOK_STRIPE   1u
 #define LOOK_SEGMENTS 2u /* plus the number of segments */
 
+/* The slots of the children of one parent, and the parent's system, in `values.w` of a look. */
+#define LOOK_PARENT_SLOTS(word)  ((word)&0x3ffffffu)
+#define LOOK_PARENT_SYSTEM(word) ((word) >> 26u)
+/* Returns the record of the parent of a particle, among those of all systems. */
+#define LOOK_PARENT_RECORD(values, serial)                                                         \
+    ((values).y + (serial) / LOOK_PARENT_SLOTS((values).w) % (values).z)
+
 /* The part of a look that is the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* parameters for the progress of life */
     uint4 flags;  /* additive; LOOK_* bits; literal soft formula (equation 3.3); textures */
     uint4 form;   /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame, or */
                   /* a stretch dims billboards */
-    uint4 values; /* row of the table in which the values over other clocks begin; 0: none */
+    uint4 values; /* row of the table in which the values over other clocks begin; 0: none; of a */
+                  /* system that inherits values: first record and capacity of the parent's */
+                  /* system; slots of one parent's children + the parent's system << 26 */
     uint4 turn;   /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
                   /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */

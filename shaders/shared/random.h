@@ -22,7 +22,7 @@
 #define RANDOM_VALUES    0x20000000u /* + VALUE_DRAW (value.h): random values and their noise */
 #define RANDOM_BOUNCE    0x40000000u /* + step << 4 + bounce << 1: 2 numbers */
 #define RANDOM_CHANCE    0x50000000u /* + step: whether an impact ends a particle, or stops it */
-#define RANDOM_CHILDREN  0x58000000u /* number of the children of a parent, in their system */
+#define RANDOM_CHILDREN  0x58000000u /* + event: number of the children of a parent */
 #define RANDOM_BURST     0x60000000u /* + repetition << 1: 2 numbers, count and delay */
 
 /* Hashes 32 bits so that half of the bits change when one changes (a finaliser with the constants

@@ -18,13 +18,14 @@ FN S(state_hash_lanes) state_hash_word(S(state_hash_lanes) lanes, uint word)
     return mixed;
 }
 
-/* Returns the words that a particle adds to the two sums; zero for a dead particle. */
+/* Returns the words that a particle, or what is left of one, adds to the two sums; zero for an
+ * empty slot. */
 FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
 {
     S(state_hash_lanes) lanes;
     lanes.a = 0u;
     lanes.b = 0u;
-    if (!particle_is_alive(p))
+    if (!particle_is_there(p))
         return lanes;
     lanes.a = system + 0x6b696c6eu;
     lanes.b = system + 0x7374617eu;
@@ -39,7 +40,8 @@ FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
     return lanes;
 }
 
-/* Returns the words that a particle's spin adds to the two sums; zero if it has none. */
+/* Returns the words that a particle's spin or way adds to the two sums; zero for a dead particle.
+ */
 FN S(state_hash_lanes) state_hash_spin(uint system, S(kiln_particle) p, S(kiln_spin) s)
 {
     S(state_hash_lanes) lanes;

@@ -6,6 +6,7 @@
 #include "shared/emit.h"
 #include "shared/family.h"
 #include "shared/push.h"
+#include "shared/still_frame.h"
 #include "shared/sweep.h"
 
 /* Returns whether particles of the system meet colliders. */
@@ -34,8 +35,12 @@ FN bool step_is_between(float3 p, float4 low, float4 high)
 FN bool step_is_removed(SIM_PARAM float3 p)
 {
     bool removed = STEP(bounded) != 0u && !step_is_between(p, STEP(bounds_min), STEP(bounds_max));
-    for (uint i = 0u; i < STEP(demitter_count); i++)
-        removed = removed || step_is_between(p, STEP(demitter_min[i]), STEP(demitter_max[i]));
+    for (uint i = 0u; i < STEP(demitter_count); i++) {
+        EXACT float3 at = p;
+        if (USES(USES_DEMITTERS, DEMITTER_IN_NODE) && still_frame_is(STEP(demitter_frames[i])))
+            at = still_frame_inside(STEP(demitter_frames[i]), p);
+        removed = removed || step_is_between(at, STEP(demitter_min[i]), STEP(demitter_max[i]));
+    }
     return removed;
 }
 
@@ -63,14 +68,15 @@ FN S(kiln_particle) step_with_motion(S(kiln_particle) p, float3 position, float3
 FN S(kiln_particle) step_birth(SIM_PARAM uint index)
 {
     S(kiln_particle) p = step_dead();
+    EXACT S(emit_time) time = emit_birth_time(SIM index);
     p.position_serial.w = STEP(first_serial) + index;
     p.velocity_birth.w = (STEP(step) << KILN_BIRTH_STEP_SHIFT) |
-                         (emit_birth_fraction(SIM index) << KILN_BIRTH_FRACTION_SHIFT) |
-                         KILN_PARTICLE_ALIVE;
+                         (time.sixty_fourths << KILN_BIRTH_FRACTION_SHIFT) | KILN_PARTICLE_ALIVE;
     uint stream = particle_stream(STEP(derived), p);
-    EXACT float born_s = particle_birth_time(STEP(derived), p);
+    EXACT float born_s = particle_birth_time_at(STEP(derived), p, time.place);
+    EXACT float order = emit_order(SIM index);
     EXACT S(emit_state) born =
-        emit_particle(SIM stream, p.position_serial.w, born_s, particle_birth_fraction(p));
+        emit_particle(SIM stream, p.position_serial.w, born_s, time.place, order);
     return step_with_motion(p, born.position, born.velocity);
 }
 
@@ -160,18 +166,41 @@ FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
 
 #endif
 
+/* Returns how far the system's node would carry a particle in a whole step, at the pace of its way,
+ * m. */
+FN float3 step_carried(SIM_PARAM S(step_way) way)
+{
+    EXACT float3 carried = FLOAT3(0.0f, 0.0f, 0.0f);
+    if (!CARRY_HAPPENS)
+        return carried;
+    carried = carry_way(SIM way.start.position, way.start.since, way.end.since);
+    EXACT float part = way.end.since - way.start.since;
+    if (part > 0.0f && part < 1.0f) {
+        EXACT float times = exact_div(1.0f, part);
+        carried = float3_scale(carried, times);
+    }
+    return carried;
+}
+
 /* Follows a way among the colliders, and records its first impact. */
 FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, S(value_clocks) clocks,
                                S(collide_answer) answer)
 {
     EXACT S(collide_way) bounced;
     EXACT S(collide_state) start = way.start;
+    EXACT float3 carried = step_carried(SIM way);
     if (USES(USES_COLLIDE, COLLIDE_CLAMP) && STEP(collide) == COLLIDE_CLAMP) {
-        start.velocity = way.end.velocity;
+        start.velocity = carry_to_world(SIM way.end.velocity, carried, 1.0f);
         bounced = collide_clamp(SIM start, way.end.position, way.end.since, answer);
+        if (!bounced.first.happened) {
+            bounced.end.velocity = way.end.velocity; /* not a bit of it changes */
+            return bounced;
+        }
+        bounced.end.velocity = carry_to_world(SIM bounced.end.velocity, carried, -1.0f);
+        bounced.first.velocity = carry_to_world(SIM bounced.first.velocity, carried, -1.0f);
         return bounced;
     }
-    bounced = sweep(SIM start, way.end, push, clocks, answer);
+    bounced = sweep(SIM start, way.end, push, carried, clocks, answer);
     if (SWEEP_POSITION_FIRST) {
         start.velocity = bounced.end.velocity;
         start = integrate(SIM start, way.end.since, clocks);
@@ -207,8 +236,9 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     EXACT S(step_way) way;
     way.start.position = particle_position(p);
     EXACT float3 velocity = particle_velocity(p);
-    way.start.velocity = push_faster(push, velocity);
     way.start.since = born ? particle_birth_fraction(p) : 0.0f;
+    velocity = carry_velocity(SIM velocity, way.start.since, until);
+    way.start.velocity = push_faster(push, velocity);
     way.start.spin = FLOAT3(0.0f, 0.0f, 0.0f);
 #if !defined(GL_core_profile) || defined(SPINS)
     if (STEP(spins) != 0u)
@@ -216,6 +246,10 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
 #endif
     way.end = integrate(SIM way.start, until, clocks);
     way.end.position = push_farther(push, way.end.position);
+    if (CARRY_HAPPENS) {
+        EXACT float3 carried = carry_way(SIM way.start.position, way.start.since, until);
+        way.end.position = float3_add(way.end.position, carried);
+    }
     way.first = collide_no_touch();
     way.lost = true;
     way.stops = false;

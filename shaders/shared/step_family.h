@@ -15,6 +15,7 @@
 #ifndef KILN_SHARED_STEP_FAMILY_H
 #define KILN_SHARED_STEP_FAMILY_H
 
+#include "shared/ride.h"
 #include "shared/step.h"
 
 #define STEP_SIXTY_FOURTH 0.015625f
@@ -75,6 +76,10 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     return t;
 }
 
+/* Whether impacts of the system stop particles, and whether these then ride what they hit. */
+#define STEP_STOPS (STEP(family.then) >= THEN_STOP)
+#define STEP_RIDES (USES(USES_THEN, THEN_STICK) && STEP(family.then) == THEN_STICK)
+
 /* Returns whether the first impact of this step ends a particle, or stops it. */
 FN bool step_is_chosen(SIM_PARAM S(kiln_particle) p, S(step_way) way, float age_s, float life_s)
 {
@@ -86,18 +91,26 @@ FN bool step_is_chosen(SIM_PARAM S(kiln_particle) p, S(step_way) way, float age_
     return drawn < chance;
 }
 
-/* Returns the way of a particle that an impact has stopped in an earlier step. */
-FN S(step_way) step_rest(S(kiln_particle) p, float until)
+/* Returns the way of a particle that an impact has stopped in an earlier step. Its velocity is that
+ * of the collider that it rides. */
+FN S(step_way) step_rest(SIM_PARAM S(kiln_particle) p, float until)
 {
     EXACT S(step_way) way;
     way.start.position = particle_position(p);
-    way.start.velocity = particle_velocity(p);
+    way.start.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
     way.start.since = 0.0f;
     way.start.spin = FLOAT3(0.0f, 0.0f, 0.0f);
     way.end = way.start;
     way.end.since = until;
+    if (STEP_RIDES && p.velocity_birth.y != 0u) {
+        EXACT S(ride_motion) motion = ride_motion_of(SIM p.velocity_birth.y - 1u);
+        way.start.velocity = ride_velocity(SIM motion, way.start.position);
+        way.end.velocity = way.start.velocity;
+        way.end.position = ride(motion, 0.0f, until, way.start.position);
+    }
     way.first = collide_no_touch();
-    way.lost = false;
+    way.lost = STEP_RIDES && (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity) ||
+                              step_is_removed(SIM way.end.position));
     way.stops = false;
     return way;
 }
@@ -107,20 +120,39 @@ FN S(step_way) step_rest(S(kiln_particle) p, float until)
 FN S(step_way) step_move_or_stop(SIM_PARAM S(kiln_particle) p, S(step_push) push, float age_s,
                                  float life_s, float until)
 {
-    bool may_stop = STEP(family.then) == THEN_STOP;
     EXACT S(step_way) way;
-    if (may_stop && (p.velocity_birth.w & KILN_PARTICLE_STOPPED) != 0u) {
-        way = step_rest(p, until);
+    if (STEP_STOPS && particle_has_stopped(p)) {
+        way = step_rest(SIM p, until);
         return way;
     }
     way = step_move(SIM p, push, age_s, life_s, until);
-    if (may_stop && step_is_chosen(SIM p, way, age_s, life_s)) {
+    if (STEP_STOPS && step_is_chosen(SIM p, way, age_s, life_s)) {
         way.end.position = way.first.position;
         way.end.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
         way.stops = true;
+        if (STEP_RIDES) {
+            EXACT S(ride_motion) motion = ride_motion_of(SIM way.first.number);
+            way.end.velocity = ride_velocity(SIM motion, way.first.position);
+            way.end.position = ride(motion, way.first.since, until, way.first.position);
+        }
         way.lost = !step_is_sane(way.end.position) || step_is_removed(SIM way.end.position);
     }
     return way;
+}
+
+/* Returns a particle that has stopped, in this step or before. */
+FN S(kiln_particle) step_at_rest(SIM_PARAM S(kiln_particle) p, S(step_way) way)
+{
+    S(kiln_particle) y = step_with_motion(p, way.end.position, way.end.velocity);
+    y.velocity_birth = p.velocity_birth;
+    if (way.stops) {
+        uint sixty_fourths = family_sixty_fourths(way.first.since, 0u);
+        y.velocity_birth.x = (STEP(step) << KILN_REST_STEP_SHIFT) | sixty_fourths;
+        y.velocity_birth.y = STEP_RIDES ? way.first.number + 1u : 0u;
+        y.velocity_birth.z = 0u;
+        y.velocity_birth.w |= KILN_PARTICLE_STOPPED;
+    }
+    return y;
 }
 
 /* Returns a particle at the end of this step, and its trace. The particle may have been born in
@@ -154,16 +186,18 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
     }
     if (!ends && !dies) {
         r.particle = step_with_motion(p, way.end.position, way.end.velocity);
-        r.particle.velocity_birth.w |= way.stops ? KILN_PARTICLE_STOPPED : 0u;
+        if (STEP_STOPS && (way.stops || particle_has_stopped(p)))
+            r.particle = step_at_rest(SIM p, way);
     }
     if (!traced)
         return r;
     uint events = TRACE_ALIVE;
     if (way.first.happened) {
-        bool hit_before = (p.velocity_birth.w & KILN_PARTICLE_BOUNCED) != 0u;
-        events |= hit_before ? TRACE_TURN : TRACE_TURN | TRACE_BOUNCE;
-        if (!ends && !dies)
-            r.particle.velocity_birth.w |= KILN_PARTICLE_BOUNCED;
+        uint hits = family_hits(SIM push.slot, p);
+        events |= TRACE_TURN | hits << TRACE_HITS_SHIFT;
+        if (!ends && !dies && hits < STEP(family.counted) && hits < KILN_PARTICLE_MOST_HITS)
+            r.particle.velocity_birth.w =
+                particle_birth_with_hits(r.particle.velocity_birth.w, hits + 1u);
     }
     if (ends && !dies)
         events |= TRACE_DEATH;
@@ -178,7 +212,7 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
 FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     uint j = slot % STEP(family.slots);
-    EXACT S(family_event) event = family_event_of(SIM parent, j);
+    EXACT S(family_event) event = family_event_of(SIM parent, slot);
     if (!event.happens)
         return old;
     EXACT float start_at = parent.start.w * 64.0f;
@@ -190,6 +224,8 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
                          (sixty_fourths << KILN_BIRTH_FRACTION_SHIFT) | KILN_PARTICLE_ALIVE;
     uint stream = particle_stream(STEP(derived), p);
     EXACT float born_s = particle_birth_time(STEP(derived), p);
+    if (USES(USES_BIRTHS, BORN_OF_WAY) && STEP(family.born_of) == BORN_OF_WAY)
+        since = event.since; /* the time is one of 64, but the place is that of the way */
     EXACT S(emit_state) at = family_parent_at(SIM parent, since);
     EXACT float3 axis = family_axis(SIM parent, at.velocity);
     EXACT S(emit_state) born = emit_child(SIM stream, p.position_serial.w, born_s, at, axis);
@@ -215,6 +251,12 @@ FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(
         EXACT S(step_push) push = push_of(SIM slot);
         r = step_family_particle(SIM p, push);
     }
+    if (STEP(family.keeps) != 0u && !particle_is_alive(r.particle))
+        r.particle = particle_remains(p);
+#if FAMILY_HAS_WAYS
+    if (STEP(family.travels) != 0u && (r.trace.serial_event.y & TRACE_ALIVE) != 0u)
+        family_travel(SIM slot, particle_birth_step(p) == STEP(step), r.trace);
+#endif
     return r;
 }
 

@@ -17,6 +17,7 @@
 #ifndef KILN_SHARED_SWEEP_H
 #define KILN_SHARED_SWEEP_H
 
+#include "shared/carry.h"
 #include "shared/collide.h"
 #include "shared/integrate.h"
 
@@ -56,13 +57,14 @@ struct sweep_path {
     float later;        /* time by which the curve is known to have hit a surface */
     float aim;          /* end of the next piece */
     float3 push;        /* m in a whole step, by other particles of its system */
+    float3 carried;     /* m in a whole step, by the node that it moves with (carry.h) */
     uint bounces;
     uint guesses; /* guesses so far of the time of the next impact */
     bool curved;
 };
 
 FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
-                             bool curved)
+                             float3 carried, bool curved)
 {
     EXACT S(sweep_path) path;
     path.now = start;
@@ -74,6 +76,7 @@ FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) 
     path.later = end.since;
     path.aim = end.since;
     path.push = push;
+    path.carried = carried;
     path.bounces = 0u;
     path.guesses = 0u;
     path.curved = curved;
@@ -90,10 +93,12 @@ FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, S(value_clocks) cl
     if (path.curved) {
         ahead = integrate(SIM path.now, path.aim, clocks);
         ahead.position = float3_add_scaled(ahead.position, path.push, part);
+        ahead.position = carry_on(SIM ahead.position, path.carried, part);
         return ahead;
     }
     EXACT float time_s = part * STEP(derived.dt_s);
     ahead.position = float3_add_scaled(path.now.position, path.now.velocity, time_s);
+    ahead.position = carry_on(SIM ahead.position, path.carried, part);
     ahead.since = path.aim;
     return ahead;
 }
@@ -180,8 +185,8 @@ FN S(sweep_path) sweep_past(S(sweep_path) before)
     return path;
 }
 
-/* Moves on from an impact, to the end if no other impact follows. left: the state behind it; from,
- * blow: as for sweep_climb. */
+/* Moves on from an impact, to the end if no other impact follows. left: the state behind it, with
+ * the velocity in the world; from, blow: as for sweep_climb. */
 FN S(sweep_path) sweep_off(SIM_PARAM S(sweep_path) before, S(collide_hit) hit,
                            S(collide_state) left, float3 from, float3 blow)
 {
@@ -189,6 +194,7 @@ FN S(sweep_path) sweep_off(SIM_PARAM S(sweep_path) before, S(collide_hit) hit,
     path.now = left;
     if (before.curved)
         path.now = sweep_climb(SIM left, before, from, blow);
+    path.now.velocity = carry_to_world(SIM path.now.velocity, path.carried, -1.0f);
     path.hit = hit;
     path.later = path.until;
     path.aim = path.until;
@@ -198,12 +204,14 @@ FN S(sweep_path) sweep_off(SIM_PARAM S(sweep_path) before, S(collide_hit) hit,
     return path;
 }
 
-/* Returns the first impact of a step, from the state behind it. */
-FN S(collide_touch) sweep_touch(SIM_PARAM S(collide_state) s, S(collide_hit) hit, float radius)
+/* Returns the first impact of a step, from the state behind it in the world. */
+FN S(collide_touch) sweep_touch(SIM_PARAM S(collide_state) s, S(collide_hit) hit, float radius,
+                                float3 carried)
 {
     uint kind = AROUND(colliders[hit.box].kind);
     EXACT S(collide_touch) touch =
-        collide_touched(s, collide_face_met(SIM hit.box, radius, s, hit.face));
+        collide_touched(s, hit.box, collide_face_met(SIM hit.box, radius, s, hit.face));
+    touch.velocity = carry_to_world(SIM touch.velocity, carried, -1.0f);
     touch.reach = COLLIDE_MEETS_CENTRES(kind) ? 0.0f : radius;
     return touch;
 }
@@ -227,12 +235,13 @@ FN S(collide_state) sweep_stay(SIM_PARAM S(sweep_path) path, float radius)
 
 /* Does sweep for the given kind of way. */
 FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
-                              S(value_clocks) clocks, S(collide_answer) answer, bool curved)
+                              float3 carried, S(value_clocks) clocks, S(collide_answer) answer,
+                              bool curved)
 {
     EXACT S(collide_way) way;
     way.first = collide_no_touch();
     EXACT S(collide_answer) draw = answer;
-    EXACT S(sweep_path) path = sweep_start(SIM start, end, push, curved);
+    EXACT S(sweep_path) path = sweep_start(SIM start, end, push, carried, curved);
     for (uint piece = 0u; piece < SWEEP_PIECES && path.bounces < COLLIDE_BOUNCES; piece++) {
         S(collide_hit) hit =
             collide_first(SIM path.now, path.ahead.position, path.ahead.since, answer.radius);
@@ -244,6 +253,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
                 return way;
         } else {
             EXACT S(collide_state) at = sweep_meeting(path, hit.part);
+            at.velocity = carry_to_world(SIM at.velocity, carried, 1.0f);
             draw.purpose = collide_purpose(SIM path.bounces);
             EXACT S(collide_state) left = collide_impact(SIM at, hit.box, hit.face, draw);
             EXACT float3 blow = float3_sub(left.velocity, at.velocity);
@@ -258,7 +268,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
                 path.guesses++;
             } else {
                 if (SWEEP_TOUCHES && path.bounces == 0u)
-                    way.first = sweep_touch(SIM left, hit, answer.radius);
+                    way.first = sweep_touch(SIM left, hit, answer.radius, carried);
                 path = sweep_off(SIM path, hit, left, at.position, blow);
             }
         }
@@ -269,18 +279,19 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
 }
 
 /* Follows a particle from `start` to the time of `end`, its place without colliders. `push`, m, is
- * the part of that by other particles of its system. The result is outside of every collider. */
+ * the part of that by other particles of its system, and `carried` that of a whole step by the node
+ * that it moves with. The result is outside of every collider. */
 FN S(collide_way) sweep(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
-                        S(value_clocks) clocks, S(collide_answer) answer)
+                        float3 carried, S(value_clocks) clocks, S(collide_answer) answer)
 {
     EXACT S(collide_way) way;
 #ifndef GL_core_profile /* in C, where compilers then make two loops */
     if (!SWEEP_IS_CURVED) {
-        way = sweep_along(SIM start, end, push, clocks, answer, false);
+        way = sweep_along(SIM start, end, push, carried, clocks, answer, false);
         return way;
     }
 #endif
-    way = sweep_along(SIM start, end, push, clocks, answer, SWEEP_IS_CURVED);
+    way = sweep_along(SIM start, end, push, carried, clocks, answer, SWEEP_IS_CURVED);
     return way;
 }
 

@@ -10,11 +10,13 @@
 #include "shared/emit.h"
 
 /* Events of the step; 0 if the slot had no living particle. */
-#define TRACE_ALIVE  1u
-#define TRACE_TURN   2u  /* it hit a surface in this step */
-#define TRACE_BOUNCE 4u  /* its first hit in its life */
-#define TRACE_DEATH  8u  /* its life ended */
-#define TRACE_FATAL  16u /* it died of its hit */
+#define TRACE_ALIVE 1u
+#define TRACE_TURN  2u  /* it hit a surface in this step */
+#define TRACE_DEATH 8u  /* its life ended */
+#define TRACE_FATAL 16u /* it died of its hit */
+
+/* The bits above these have the number of impacts in earlier steps, as far as they are counted. */
+#define TRACE_HITS_SHIFT 8u
 
 struct kiln_trace {
     float4 start;          /* position, m; part of the step that had passed */
@@ -23,7 +25,8 @@ struct kiln_trace {
     float4 start_velocity; /* m/s; progress through life */
     float4 turn_velocity;  /* velocity after the impact, m/s; w: distance from the surface, m */
     float4 end_velocity;   /* m/s; progress through life */
-    uint4 serial_event;    /* serial; TRACE_*; face of the impact; life in seconds as float bits */
+    uint4 serial_event;    /* serial; TRACE_* and hits; face of the impact; life in seconds as float
+                              bits */
 };
 
 FN float4 trace_pack(float3 v, float w)

@@ -32,16 +32,24 @@
 #define KEYED_FORCE_SCALE     18u
 #define KEYED_CHANCE          19u
 
-/* The bit of USES_FORCES that says whether any force acts in a region alone. */
+/* The bits of USES_FORCES that say whether any force acts in a region alone, and whether any force
+ * or region lies in a node. */
 #define FORCE_IN_REGION 31u
+#define FORCE_IN_NODE   30u
+
+/* The bit of USES_DEMITTERS for demitters that lie in nodes. */
+#define DEMITTER_IN_NODE 0u
 
 #ifdef GL_core_profile
 
 #ifndef USES_KEYS /* of KEYED_* */
 #define USES_KEYS 0xffffffffu
 #endif
-#ifndef USES_FORCES /* of FORCE_* and FORCE_IN_REGION */
+#ifndef USES_FORCES /* of FORCE_* */
 #define USES_FORCES 0xffffffffu
+#endif
+#ifndef USES_DEMITTERS /* of DEMITTER_IN_NODE */
+#define USES_DEMITTERS 0xffffffffu
 #endif
 #ifndef USES_EMITTERS /* of EMIT_* */
 #define USES_EMITTERS 0xffffffffu
@@ -54,6 +62,10 @@
 #endif
 #ifndef USES_BIRTHS /* of BORN_OF_* */
 #define USES_BIRTHS 0xffffffffu
+#endif
+
+#ifndef USES_THEN /* of THEN_* */
+#define USES_THEN 0xffffffffu
 #endif
 
 #ifdef USES_INTEGRATION /* the scene's INTEGRATE_* */

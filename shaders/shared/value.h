@@ -88,12 +88,14 @@ struct value_clocks {
     float time_s;
     float life;
     float age_s;
-    float height;    /* m */
-    float distance;  /* m */
-    float3 velocity; /* m/s */
-    uint stream;     /* the particle's random numbers */
-    uint system;     /* the system's random numbers, or the scene's */
-    uint scene;      /* the scene's, which a noise of a system has if the file gives it a seed */
+    float height;                    /* m */
+    float distance;                  /* m */
+    float3 velocity;                 /* m/s */
+    uint stream;                     /* the particle's random numbers */
+    float parent_life, parent_age_s; /* its parent's, when it was born */
+    uint parent_stream;
+    uint system; /* the system's random numbers, or the scene's */
+    uint scene;  /* the scene's, which a noise of a system has if the file gives it a seed */
 };
 
 /* A kernel of GLSL may have a mask of the clocks of its values (lib/sim/step/uses.c): bits by the
@@ -126,6 +128,9 @@ FN S(value_clocks) value_clocks_at(float time_s, uint system, uint scene)
     clocks.distance = 0.0f;
     clocks.velocity = FLOAT3(0.0f, 0.0f, 0.0f);
     clocks.stream = 0u;
+    clocks.parent_life = 0.0f;
+    clocks.parent_age_s = 0.0f;
+    clocks.parent_stream = 0u;
     clocks.system = system;
     clocks.scene = scene;
     return clocks;

@@ -82,6 +82,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         check_skin(skin);
     fuzz_taken = fuzz_taken || skin;
     kiln_skin_destroy(&skin);
+    struct kiln_rig *rig = kiln_rig_parse("{", 1, "fuzz.gltf", &error);
+    if (rig)
+        check_rig(rig);
+    fuzz_taken = fuzz_taken || rig;
+    kiln_rig_destroy(&rig);
     unlink(fed);
     return 0;
 }

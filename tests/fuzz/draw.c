@@ -15,6 +15,7 @@
 #include "frame/loop.h"
 #include "fuzz.h"
 #include "scene/options.h"
+#include "scene/parts.h"
 #include "scene/work.h"
 
 enum {
@@ -194,13 +195,13 @@ static void add_range(struct choice *c, const struct kiln_option *row)
     kiln_text_add(&c->text, "]");
 }
 
-static void add_bounds(struct choice *c, const struct kiln_option *row)
+static void add_bounds(struct choice *c, const struct kiln_option *row, bool attached)
 {
     const double half = take(c) % 2 ? row->max : 0.5;
     char text[48];
     kiln_unit_print_double(text, KILN_PLAIN, half);
-    kiln_text_add(&c->text, "{min: [-%s, -%s, -%s], max: [%s, %s, %s]}", text, text, text, text,
-                  text, text);
+    kiln_text_add(&c->text, "{min: [-%s, -%s, -%s], max: [%s, %s, %s]%s}", text, text, text, text,
+                  text, text, attached ? ", attach: a" : "");
 }
 
 /* Adds one of several texts. */
@@ -234,13 +235,24 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "auto", "10", "-10", "[10, -10]");
     else if (type == &kiln_type_picture)
         ADD_ONE(c, "none", "\"scenes/textures/card.png\"");
+    else if (type == &kiln_type_mesh && row->parts == kiln_row_if_node_is_of_file)
+        /* with the rows that such a file needs, which are not written by themselves */
+        ADD_ONE(c, "\"tests/gltf/nodes/nodes-growing.gltf\", node: Camera",
+                "\"tests/gltf/nodes/nodes-uneven.gltf\", node: Tip, animation: {speed: -1000}",
+                "\"tests/gltf/nodes/nodes-step.gltf\", node: 3, animation: {clip: 1, loop: false}");
     else if (type == &kiln_type_mesh)
         ADD_ONE(c, "\"scenes/meshes/cabin.obj\"", "\"scenes/meshes/slab.obj\"",
                 "\"scenes/meshes/paper_plane.obj\"", "\"scenes/meshes/starling.obj\"");
+    else if (type == &kiln_type_image)
+        ADD_ONE(c, "\"scenes/textures/card.png\"", "\"scenes/textures/leaf_red.png\"");
     else if (type == &kiln_type_grid)
         ADD_ONE(c, "\"tests/support/whirl.grid\"");
     else if (type == &kiln_type_name)
         ADD_ONE(c, "a", "b");
+    else if (type == &kiln_type_of)
+        ADD_ONE(c, "[curl: 1]", "[vortex: {lift: 10000}, wind: {mode: add}, drag: 1000]",
+                "[attract: {attach: a, strength: -100000}]",
+                "[wind: {field: grid, file: \"tests/support/whirl.grid\"}]");
     else if (type == &kiln_type_counts)
         ADD_ONE(c, "1", "6", "[1, 6]");
     else if (type == &kiln_type_attach && strcmp(row->name, "parent") == 0)
@@ -267,10 +279,14 @@ static bool is_chosen(struct choice *c, const struct kiln_option *row, int depth
 {
     const bool needed = !row->fallback || row->type == &kiln_type_assets ||
                         row->type == &kiln_type_bursts || row->type == &kiln_type_map ||
-                        row->type == &kiln_type_group;
+                        row->type == &kiln_type_group || row->type == &kiln_type_image ||
+                        row->type == &kiln_type_mesh;
     if (row->is_unprinted || row->type == &kiln_type_text || row->type == &kiln_type_rational ||
-        row->type == &kiln_type_clip || depth > MOST_DEPTH)
+        row->type == &kiln_type_clip || row->type == &kiln_type_object || depth > MOST_DEPTH)
         return !row->fallback;
+    if (row->type == &kiln_type_part ||
+        (row->parts == kiln_row_if_node_is_of_file && row->type != &kiln_type_mesh))
+        return false;
     return needed || take(c) % 4 == 3;
 }
 
@@ -375,8 +391,8 @@ static void add_value(struct choice *c, const struct kiln_option *row, int depth
         add_range(c, row);
     else if (type == &kiln_type_place)
         add_place(c, row, depth);
-    else if (type == &kiln_type_bounds)
-        add_bounds(c, row);
+    else if (type == &kiln_type_bounds || type == &kiln_type_demitter)
+        add_bounds(c, row, type == &kiln_type_demitter && take(c) % 2);
     else if (!add_name(c, row))
         add_nested(c, row, depth);
 }

@@ -1,8 +1,9 @@
 /* Fuzzes the mesh loader. For any bytes, kiln must load a mesh or report an error, without and with
- * its materials, and for glTF also a skinned mesh or an error. The numbers of vertices and
- * triangles must stay within KILN_MAX_MESH_*, and every vertex must be finite, also in every pose
- * of the animation clip. If this fails, a damaged mesh crashes kiln. The importer runs in a process
- * of its own, kiln-decode, and may crash there; kiln must report that as an error. */
+ * its materials, and for glTF also a skinned mesh or an error, and nodes or an error. The numbers
+ * of vertices and triangles must stay within KILN_MAX_MESH_*, and every vertex must be finite, also
+ * in every pose of the animation clip. If this fails, a damaged mesh crashes kiln. The importer
+ * runs in a process of its own, kiln-decode, and may crash there; kiln must report that as an
+ * error. */
 #include "fuzz.h"
 #include "mesh_check.h"
 #include "mesh_format.h"
@@ -33,5 +34,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (skin)
         check_skin(skin);
     kiln_skin_destroy(&skin);
+    struct kiln_rig *rig = may_move ? kiln_rig_parse(data, size, name, &error) : NULL;
+    if (rig)
+        check_rig(rig);
+    kiln_rig_destroy(&rig);
     return 0;
 }

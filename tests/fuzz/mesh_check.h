@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "asset/geometry/material.h"
+#include "asset/geometry/rig.h"
 #include "asset/geometry/skin.h"
 #include "image_check.h"
 
@@ -69,6 +70,36 @@ static inline void check_skin(const struct kiln_skin *skin)
     }
     check_mesh(mesh);
     kiln_mesh_destroy(&mesh);
+}
+
+/* Checks the poses of a rig's first nodes at rest and at four times of its first clip. */
+static inline void check_rig(const struct kiln_rig *rig)
+{
+    struct kiln_error error = {0};
+    for (int number = 0; number < 8; number++) {
+        char text[2] = {(char)('0' + number), '\0'};
+        uint32_t node = 0;
+        if (!kiln_rig_find_node(rig, text, number & 1, "fuzz", &node, &error))
+            continue;
+        for (int i = -1; i < 4; i++) {
+            const bool moves = i >= 0 && kiln_rig_clip_count(rig) > 0;
+            const float seconds = moves ? kiln_rig_clip_length(rig, 0) * (float)i / 3.0f : 0.0f;
+            const struct kiln_rig_moment moment = {.clip = moves ? 0 : KILN_RIG_AT_REST,
+                                                   .seconds = seconds,
+                                                   .rate_seconds = seconds,
+                                                   .rate_is_behind = i & 1,
+                                                   .clip_s_each_s = 1000};
+            const struct kiln_rig_pose pose = kiln_rig_pose_at(rig, node, &moment);
+            double fov;
+            (void)kiln_rig_camera_of(rig, node, &fov);
+            (void)kiln_rig_is_uniform(rig, node, moment.clip);
+            require(pose.scale > 0 && isfinite(pose.scale) && isfinite(pose.growth), "a scale");
+            for (int c = 0; c < 3; c++)
+                require(isfinite(pose.at[c]) && isfinite(pose.ahead[c]) && isfinite(pose.up[c]) &&
+                            isfinite(pose.velocity[c]) && isfinite(pose.spin[c]),
+                        "a pose that is not finite");
+        }
+    }
 }
 
 #endif

@@ -53,8 +53,10 @@ static void repair(uint8_t *data, size_t size)
 static void read_into_pool(const char *path, const struct kiln_state_info *info)
 {
     struct kiln_pool_layout layout = {.system_count = 2, .capacities = {26, 52}};
-    for (uint32_t i = 0; i < layout.system_count; i++)
+    for (uint32_t i = 0; i < layout.system_count; i++) {
         layout.spins[i] = info->spins[i];
+        layout.travels[i] = info->travels[i];
+    }
     layout.canvas_count = info->shape_count;
     memcpy(layout.canvases, info->shapes, sizeof layout.canvases);
     struct kiln_error error = {0};

@@ -1,5 +1,6 @@
 /* Checks that each technique of the stage `simulate` computes the same bits as `cpu` for what
- * happens to particles: repeated bursts, forces that act in regions, and impacts. If this fails,
+ * happens to particles: repeated bursts, forces that act in regions, impacts, and children
+ * of each impact and by the metre. If this fails,
  * GLSL has another region or another birth than C. */
 #include "support/agree.h"
 #include "support/cmocka.h"
@@ -86,6 +87,76 @@ static const char IMPACTS[] =
     "  end:\n"
     "    emit: {parent: {system: stopping, on: {death: [1, 4]}}, life: 0.2 s}\n";
 
+/* Drops that stick to objects which move and turn, and ride out of the bounds and into a place
+ * where they die; children at each impact, and by the metre, of balls that spin, and of what sticks
+ * and rides; an emitter with births by the metre. */
+static const char TRAILS[] =
+    "kiln: 1\n"
+    "seed: 6\n"
+    "output: {frames: 60}\n"
+    "nodes:\n"
+    "  hub: {position: {keys: {0 s: [0, 0.5, 0], 1 s: [0.5, 0.8, 0]}},\n"
+    "        rotation: {keys: {0 s: [0, 0, 0], 1 s: [20 deg, 300 deg, 0]}}}\n"
+    "backdrop:\n"
+    "  floor: {height: 0 m}\n"
+    "  objects:\n"
+    "    - box: {attach: hub, center: [0, 0, 0], size: [1, 0.3, 1], collide: true}\n"
+    "    - sphere: {center: {keys: {0 s: [1, 0.5, 0], 1 s: [1, 0.2, 1]}}, radius: 0.4 m,\n"
+    "               collide: true}\n"
+    "    - capsule: {center: [-1, 0.3, 0], axis: {keys: {0 s: [0, 1, 0], 1 s: [1, 0, 1]}},\n"
+    "                radius: 0.2 m, height: 1 m, collide: true}\n"
+    "    - box: {center: {keys: {0 s: [0, 0.2, 1.2], 1 s: [0, 0.2, 2]}}, size: [1, 0.4, 0.4],\n"
+    "            collide: true}\n"
+    "systems:\n"
+    "  wake:\n"
+    "    emit: {attach: hub, rate: 50, per_metre: 300, bursts: {0.5 s: 20}, life: 0.4 s,\n"
+    "           from: {point: {origin: {keys: {0 s: [0, 0, 0], 1 s: [1, 0, 0]}}}}}\n"
+    "  sticky:\n"
+    "    emit: {rate: 900, life: [0.4 s, 1.2 s], speed: [1, 3], from: {box: {origin: [0, 1.2, 0],\n"
+    "           size: [3, 0.2, 3], angle: 180 deg}}}\n"
+    "    forces: [gravity: {}]\n"
+    "    collide: {then: stick, chance: 0.6}\n"
+    "    bounds: {min: [-3, -1, -3], max: [1.3, 3, 1.9]}\n"
+    "    demitters: [{min: [0.4, 0.3, -1], max: [0.8, 1.2, 1]}]\n"
+    "  plain:\n"
+    "    emit: {rate: 500, life: 1 s, speed: 3, from: {point: {origin: [0, 1, 0], angle: 90 deg,\n"
+    "           direction: [0, -1, 0]}}}\n"
+    "    collide: {then: stick, mode: clamp}\n"
+    "  balls:\n"
+    "    emit: {rate: 100, life: 1 s, speed: 3, from: {box: {origin: [0, 1.5, 0], size: [1, 1, "
+    "1],\n"
+    "           angle: 180 deg}}}\n"
+    "    forces: [gravity: {}]\n"
+    "    interact: [collide: {radius: 4 cm, spin: true}]\n"
+    "    collide: {restitution: 0.9, slowdown: 1}\n"
+    "  dust:\n"
+    "    emit: {parent: {system: balls, on: {bounce: {count: [1, 3], every: true, most: 6,\n"
+    "           align: normal}}, inherit: {size: true}},\n"
+    "           life: 0.4 s}\n"
+    "  smoke:\n"
+    "    emit: {parent: {system: balls, on: {trail: {per_metre: 9, most: 40}}}, inherit: 0.5,\n"
+    "           life: 0.3 s, speed: 0.2}\n"
+    "  drips:\n"
+    "    emit: {parent: {system: sticky, on: {trail: {per_metre: 4.5, most: 6, align: "
+    "velocity}}},\n"
+    "           life: 0.2 s, speed: 1}\n"
+    "  splash:\n"
+    "    emit: {parent: {system: sticky, on: {bounce: {count: 1, every: true, most: 2}}},\n"
+    "           life: 0.2 s, inherit: 1}\n"
+    "  end:\n"
+    "    emit: {parent: {system: sticky, on: {death: 1}, inherit: {color: true}}, life: 0.2 s,\n"
+    "           inherit: 1}\n";
+
+static void trails_agree(void **state)
+{
+    simulation_agree(*state, TRAILS, NULL, STEPS);
+}
+
+static void trails_agree_in_stages(void **state)
+{
+    simulation_agree(*state, TRAILS, "simulation.integration=rk4", STEPS / 3);
+}
+
 static void impacts_agree(void **state)
 {
     simulation_agree(*state, IMPACTS, NULL, STEPS);
@@ -116,7 +187,8 @@ int main(int argc, char **argv)
     static const struct CMUnitTest tests[] = {
         test_on_device(regions_agree),           test_on_device(regions_agree_in_stages),
         test_on_device(plain_forces_agree),      test_on_device(impacts_agree),
-        test_on_device(impacts_agree_in_stages),
+        test_on_device(impacts_agree_in_stages), test_on_device(trails_agree),
+        test_on_device(trails_agree_in_stages),
     };
     struct test_list list = {.count = 0};
     test_list_add(&list, tests, sizeof tests / sizeof *tests);

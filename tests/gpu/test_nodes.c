@@ -1,9 +1,11 @@
 /* Checks that each technique of the stage `simulate` computes the same bits as `cpu` where emitters
- * and colliders lie in nodes. If this fails, GLSL takes births from the frame of a node in another
- * way than C (shaders/shared/emit.h). */
+ * and colliders lie in nodes, and where particles move with nodes. If this fails, GLSL takes births
+ * from the frame of a node in another way than C (shaders/shared/emit.h), or carries particles in
+ * another way (carry.h). */
 #include <math.h>
 #include <string.h>
 
+#include "support/agree.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/parts.h"
@@ -48,6 +50,96 @@ static const char SCENE[] =
     "  sparks:\n"
     "    emit: {parent: {system: a, on: {trail: {rate: 4}}}, life: 0.3 s}\n";
 
+/* All forces, their regions and demitters in nodes that move, turn and grow. FORCES_ALL is needed.
+ */
+static const char FORCES[] =
+    "kiln: 1\n"
+    "seed: 3\n"
+    "output: {frames: 60}\n"
+    "nodes:\n"
+    "  hub: {position: [0, 1, 0], rotation: {keys: {0 s: [0, 0, 0], 1 s: [90 deg, 400 deg, 0]}},\n"
+    "        scale: {keys: {0 s: 0.5, 1 s: 2}}}\n"
+    "  arm: {parent: hub, position: {keys: {0 s: [0, 0, 0], 1 s: [1, 1, 0]}}, scale: 0.7}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 3000, life: [0.3 s, 1.5 s], speed: [0.5, 2],\n"
+    "           from: {box: {origin: [0, 1, 0], size: [3, 3, 3], angle: 180 deg}}}\n"
+    "    forces:\n"
+    "      - gravity: {attach: hub, acceleration: {life: [[0, -9, 0], [3, 0, 1]]}}\n"
+    "      - drag: {strength: 2, quadratic: 0.4, attach: arm, region: {box: {size: [1, 9, 1]}}}\n"
+    "      - wind: {velocity: [4, 0, 0], pull: 3, region: {attach: arm, sphere: {}, falloff: 0.5 "
+    "m}}\n"
+    "      - wind: {velocity: [0, 0, 2], mode: add, attach: arm, region: {attach: hub, box: {}}}\n"
+    "      - curl: {strength: 2, scale: {random: [0.2, 0.6]}, octaves: 3, drift: [0, 1, 0],\n"
+    "               attach: hub}\n"
+    "      - vortex: {speed: 3, inward: 1, radius: {height: {0 m: 0.2, 3 m: 1}}, attach: arm,\n"
+    "                 position: [0.2, 0, 0], axis: [1, 1, 0],\n"
+    "                 region: {box: {size: [3, 2, 3]}, falloff: 1 m}}\n"
+    "      - attract: {position: [0.5, 0, 0], strength: 4, radius: {speed: {0: 0.1, 4: 0.5}},\n"
+    "                  attach: hub}\n"
+    "      - limit: 6\n"
+    "    demitters:\n"
+    "      - {attach: arm, min: [-0.1, -9, -0.1], max: [0.2, 0, 0.2]}\n"
+    "      - {min: [1, 1, 1], max: [3, 3, 1.5]}\n";
+
+/* Forces that every kernel has. */
+static const char PLAIN[] =
+    "kiln: 1\n"
+    "output: {frames: 60}\n"
+    "nodes: {hub: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [0, 90 deg, 0]}}, scale: 2}}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 2000, life: 1 s, from: {box: {origin: [0, 1, 0], size: [2, 2, 2]}}}\n"
+    "    forces: [wind: {attach: hub, pull: 3}, curl: {attach: hub},\n"
+    "             gravity: {region: {attach: hub, box: {}}}]\n";
+
+static void attached_forces_agree(void **state)
+{
+    simulation_agree(*state, FORCES, NULL, 70);
+    simulation_agree(*state, FORCES, "simulation.integration=rk4", 25);
+    simulation_agree(*state, PLAIN, NULL, 30);
+}
+/* Systems that move with nodes: with collisions, children, other particles, spins and a jump. */
+static const char SPACES[] =
+    "kiln: 1\n"
+    "seed: 7\n"
+    "output: {frames: 60}\n"
+    "nodes:\n"
+    "  ship: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [60 deg, 500 deg, 0]}},\n"
+    "         position: {keys: {0 s: [0, 1, 0], 1 s: [3, 1.2, 1]}}}\n"
+    "  jump: {position: {keys: {0 s: [0, 1, 0], 0.3 s: [2, 1, 0], 0.6 s: [0, 1, 2]}, ease: step},\n"
+    "         rotation: {keys: {0 s: [0, 0, 0], 0.3 s: [0, 90 deg, 0]}, ease: step}}\n"
+    "backdrop:\n"
+    "  objects:\n"
+    "    - box: {center: [2, 0.5, 1], size: [1, 1, 1], rotation: [0, 30 deg, 0]}\n"
+    "    - sphere: {attach: ship, center: [-0.5, 0, 0.5], radius: 0.3}\n"
+    "systems:\n"
+    "  a:\n"
+    "    space: ship\n"
+    "    emit: {rate: 1500, attach: ship, from: {box: {size: [2, 2, 2], angle: 180 deg}}}\n"
+    "    forces: [{gravity: {}}, {drag: 1}]\n"
+    "    collide: {restitution: 0.6, friction: 0.2, randomness: 0.1}\n"
+    "  sparks:\n"
+    "    emit: {parent: {system: a, on: {trail: {rate: 4}}}, life: 0.3 s}\n"
+    "    space: jump\n"
+    "  hits:\n"
+    "    emit: {parent: {system: a, on: {bounce: 2}}, life: 0.3 s}\n"
+    "  clamped:\n"
+    "    space: ship\n"
+    "    emit: {rate: 400, attach: jump}\n"
+    "    collide: {mode: clamp}\n"
+    "  stopping:\n"
+    "    space: ship\n"
+    "    emit: {rate: 400, attach: ship}\n"
+    "    forces: [gravity: {}]\n"
+    "    collide: {then: stop, chance: 0.5}\n"
+    "  balls:\n"
+    "    space: ship\n"
+    "    emit: {rate: 200, attach: ship, from: {box: {size: [1, 1, 1]}}}\n"
+    "    forces: [gravity: {}]\n"
+    "    interact: [{collide: {radius: 0.05 m, turning: [1 rad/s, 5 rad/s]}}]\n"
+    "    collide: {friction: 0.4}\n";
+
 static const struct {
     enum kiln_simulate_technique technique;
     const char *name;
@@ -83,6 +175,18 @@ static void attached_emitters_agree(void **state)
         simulation_end(&cpu);
     }
     kiln_scene_destroy(&scene);
+}
+
+static void spaces_agree(void **state)
+{
+    simulation_agree(*state, SPACES, NULL, 50);
+}
+
+static void spaces_agree_along_curves(void **state)
+{
+    simulation_agree(*state, SPACES, "simulation.integration=rk4", 40);
+    if (test_is_full())
+        simulation_agree(*state, SPACES, "simulation.integration=position_first", 40);
 }
 
 /* A circle of 1 m, once around in a second. */
@@ -122,6 +226,9 @@ int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(attached_emitters_agree),
+        test_on_device(attached_forces_agree),
+        test_on_device(spaces_agree),
+        test_on_device(spaces_agree_along_curves),
         test_on_device(births_lie_on_a_circle),
     };
     struct test_list list = {.count = 0};

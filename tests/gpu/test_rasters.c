@@ -117,7 +117,8 @@ static const struct text MIXED = {
     "      opacity: 0.01\n"
     "      temperature: 1700\n"};
 
-/* Looks whose values vary over every clock, and shapes of three kinds. */
+/* Looks whose values vary over every clock, or are the colours of an image and of a mesh, and
+ * shapes of three kinds. */
 static const struct text VALUES = {
     "values",
     "kiln: 1\n"
@@ -146,7 +147,39 @@ static const struct text VALUES = {
     "  points:\n"
     "    emit: {rate: 400, life: 2 s, speed: [1, 3], from: {cone: {}}}\n"
     "    look: {shape: point, point: {size: {choose: [2 px, 5 px, 9 px]}},\n"
-    "           color: [{random: [0, 1]}, 0.5, {age: {0 s: 0, 0.3 s: 1}, repeat: mirror}]}\n"};
+    "           color: [{random: [0, 1]}, 0.5, {age: {0 s: 0, 0.3 s: 1}, repeat: mirror}]}\n"
+    "  logo:\n"
+    "    emit: {rate: 900, life: 1 s, speed: 0.2,\n"
+    "           from: {image: {file: tests/sources/mark.png, width: 2 m, origin: [0, 1, 0]}}}\n"
+    "    look: {shape: point, size: 6 cm, color: source}\n"
+    "  quilt:\n"
+    "    emit: {rate: 900, life: 1 s, speed: 0.2, from: {mesh: {file: tests/sources/quilt.obj}}}\n"
+    "    look: {atlas: \"builtin:spark\", blend: add, size: 6 cm, color: source, intensity: 3}\n"};
+
+/* Children with the color, size and temperature of parents, most of which are dead. */
+static const struct text INHERITED = {
+    "inherited",
+    "kiln: 1\n"
+    "output: {frames: 60}\n"
+    "systems:\n"
+    "  before: {emit: {rate: 10}}\n"
+    "  shell:\n"
+    "    emit: {rate: 60, life: [0.2 s, 0.4 s], speed: [1, 4], from: {cone: {angle: 60 deg}}}\n"
+    "    look: {size: {life: [0.1, 0.4], times: {random: [0.5, 1]}}, temperature: {random: [1200 "
+    "K,\n"
+    "           2500 K]}, color: {choose: [[1, 0.2, 0.1], [0.1, 1, 0.3], [0.2, 0.3, 1]]}}\n"
+    "  smoke:\n"
+    "    emit: {parent: {system: shell, on: {trail: 40}, inherit: {color: true, size: true}},\n"
+    "           life: 1 s, speed: 0.4}\n"
+    "    look: {opacity: {life: [0.6, 0]}, lit: 0.5, scale: [0.5, 1]}\n"
+    "  fire:\n"
+    "    emit: {parent: {system: shell, on: {death: 6}, inherit: {temperature: true}}, life: 1 s,\n"
+    "           speed: 1}\n"
+    "    look: {atlas: \"builtin:spark\", blend: add, size: 0.2, intensity: 9}\n"
+    "  dots:\n"
+    "    emit: {parent: {system: shell, on: {death: 9}, inherit: {color: true}}, life: 1 s, speed: "
+    "2}\n"
+    "    look: {shape: point, size: 5 cm, opacity: {age: {0 s: 1, 1 s: 0}}}\n"};
 
 /* Loads a scene, and creates its stages and a stage for each technique. path: the scene's file, or
  * NULL to load `text`. */
@@ -158,6 +191,7 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = 2;
+    params.asset_root = path ? NULL : KILN_SOURCE_DIR;
     *s = (struct subject){.name = path ? strrchr(path, '/') + 1 : text->name,
                           .threads = kiln_threads_create(2)};
     s->scene = path ? kiln_scene_load(path, &params, &error)
@@ -329,8 +363,9 @@ static void draw_pass(struct subject *s, const struct pass *pass)
         .lighting = draw.lighting,
         .fire_covers = draw.sum_alpha || draw.fire_covers,
         .table = calloc((size_t)kiln_look_rows(s->scene) * KILN_LOOK_SAMPLES, sizeof(float4)),
-        .programs = programs};
-    assert_non_null(scene.table);
+        .programs = programs,
+        .records = kiln_buffer_host(&draw.moment->pool->records, KILN_READ, &error)};
+    assert_true(scene.table && scene.records);
     kiln_look_programs_fill(s->scene, programs);
     kiln_looks_fill(s->scene, scene.atlas, programs, scene.looks);
     kiln_looks_sample(s->scene, draw.view->clock.x, scene.table);
@@ -404,8 +439,15 @@ static void techniques_agree_on_values(void **state)
     assert_true(agree_on(test_device(), NULL, &VALUES));
 }
 
+static void techniques_agree_on_parents_looks(void **state)
+{
+    (void)state;
+    assert_true(agree_on(test_device(), NULL, &INHERITED));
+}
+
 int main(int argc, char **argv)
 {
+    static const struct CMUnitTest inherited = test_on_device(techniques_agree_on_parents_looks);
     static const struct CMUnitTest values = test_on_device(techniques_agree_on_values);
     static const struct CMUnitTest faint = test_on_device(techniques_agree_on_what_is_faint);
     static const struct CMUnitTest hazy = test_on_device(techniques_agree_in_haze);
@@ -415,6 +457,7 @@ int main(int argc, char **argv)
     test_list_add_full(&list, &faint, 1);
     test_list_add_full(&list, &mixed, 1);
     test_list_add(&list, &values, 1);
+    test_list_add(&list, &inherited, 1);
     test_list_add_full(&list, &hazy, 1);
     test_list_add_scenes(&list, scene, 7);
     return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);

@@ -190,6 +190,28 @@ def meshes():
     for label, data in glbs.items():
         yield asset("meshes", "moving" if label == "nested" else "mesh", f"GLB {label}", "a.glb", data)
     yield asset("meshes", "moving", "glTF that does not move", "a.gltf", json.dumps(gltf()))
+    yield from nodes()
+
+
+def nodes():
+    """Yields glTF files of whose nodes a scene takes one."""
+    accessor = {"componentType": 5126, "count": 2, "type": "SCALAR"}
+    def moving(**changes):
+        sampler = {"input": 1, "output": 2} | changes
+        return {"accessors": [gltf()["accessors"][0], accessor, dict(accessor, type="VEC3")], "animations": [
+            {"samplers": [sampler], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}
+    chain = [{"children": [i + 1]} for i in range(200000)] + [{}]
+    trees = {
+        "sound": gltf(), "none": gltf(nodes=[]), "ring": gltf(nodes=[{"children": [1]}, {"children": [0]}]),
+        "huge numbers": gltf(nodes=[{"translation": [1e308] * 3, "scale": [1e308] * 3}]),
+        "chain": gltf(nodes=chain), "many": gltf(nodes=[{"name": "x" * 60}] * 70000, scenes=[{"nodes": list(range(70000))}]),
+        "camera missing": gltf(nodes=[{"camera": 3}]), "camera of text": gltf(nodes=[{"camera": 0}], cameras=["x"]),
+        "keys": gltf(**moving()), "clip missing": gltf(**moving(output=99)), "interpolation": gltf(**moving(interpolation="X")),
+        "clips": gltf(**(moving() | {"animations": moving()["animations"] * 300})),
+    }
+    for label, tree in trees.items():
+        codes = OK + REFUSED if label in ("sound", "keys") else REFUSED
+        yield asset("meshes", "nodes", f"glTF {label}", "a.gltf", json.dumps(tree), codes, seconds=45, smoke=label == "ring")
 
 
 def grids():

@@ -88,7 +88,7 @@ def others():
         "WebP animation": ("a.webp", b"RIFF\x1e\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\xff\xff\xff\xff\xff\xff"),
         "EXR head": ("a.exr", b"v/1\x01"), "EXR version": ("a.exr", b"v/1\x01\xff\xff\xff\xff" + bytes(100)),
         "EXR attribute": ("a.exr", b"v/1\x01\x02\0\0\0channels\0chlist\0\xff\xff\xff\x7f"),
-        "HDR size": ("a.hdr", HDR % (b"", 0x7fffffff, 0x7fffffff)), "HDR cut": ("a.hdr", HDR % (b"", 4096, 4096)),
+        "HDR size": ("a.hdr", HDR % (b"", 0x7fffffff, 0x7fffffff)), "HDR cut": ("a.hdr", HDR % (b"", 1024, 1024)),
         "HDR head": ("a.hdr", b"#?RADIANCE\n" + 100000 * b"EXPOSURE=1e-30\n"), "HDR line": ("a.hdr", b"#?" + bytes(1 << 20)),
         "HDR run": ("a.hdr", HDR % (b"", 1, 4096) + b"\x80\x80\x80\x80" + 4 * b"\1\1\1\xff"),
         "HDR nothing": ("a.hdr", HDR % (b"", 1, 4096) + b"\x80\x80\x80\x80" + 100000 * b"\1\1\1\0"),

@@ -42,6 +42,7 @@ USES = {
     "mesh": "backdrop: {objects: [{mesh: {file: FILE}}]}\nsystems: {a: {emit: {rate: 9, life: 1 s}}}",
     "moving": "backdrop: {objects: [{mesh: {file: FILE, animation: {}}}]}\n"
               "systems: {a: {emit: {rate: 9, life: 1 s}}}",
+    "nodes": "nodes: {n: {file: FILE, node: 0}}\ncamera: {attach: n}\nsystems: {a: {emit: {rate: 9, life: 1 s}}}",
     "wind": "systems: {a: {emit: {rate: 9, life: 1 s}, forces: [{wind: {field: grid, file: FILE}}]}}",
     "terrain": "backdrop: {objects: [{terrain: {size: [9, 1, 9], image: FILE}}]}\n"
                "systems: {a: {emit: {rate: 9, life: 1 s}}}",

@@ -429,8 +429,8 @@ static void fixture_zoo_disc(struct scene_fixture *f)
     curl->scale = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.3f, 1.0f, 1.5f);
     curl->drift = fixture_constant3(0.2f, -0.4f, 1.0f);
     curl->octaves = 4;
-    s->demitters[0] = (struct kiln_bounds){true, {0.2f, 0.5f, -2.0f}, {0.6f, 3.0f, 0.0f}};
-    s->demitters[1] = (struct kiln_bounds){true, {-0.6f, 0.8f, -2.0f}, {-0.2f, 3.0f, 0.0f}};
+    s->demitters[0].box = (struct kiln_bounds){true, {0.2f, 0.5f, -2.0f}, {0.6f, 3.0f, 0.0f}};
+    s->demitters[1].box = (struct kiln_bounds){true, {-0.6f, 0.8f, -2.0f}, {-0.2f, 3.0f, 0.0f}};
     s->demitter_count = 2;
 }
 
@@ -537,6 +537,15 @@ void fixture_alone(struct scene_fixture *f, enum kiln_force_kind kind, uint32_t 
     force->lift = fixture_constant(0.6f);
     force->octaves = 2;
     force->file = KILN_SOURCE_DIR "/tests/support/whirl.grid";
+    if (kind == KILN_FORCE_BAKED) {
+        f->baked = (struct kiln_force){.kind = KILN_FORCE_CURL, .octaves = 2};
+        f->baked.scale = f->baked.strength = f->baked.pull = fixture_constant(1.0f);
+        force->box_center = fixture_constant3(0.0f, 0.0f, 0.0f);
+        force->box_size = fixture_constant3(2.0f, 3.0f, 2.0f);
+        force->cells = 8;
+        force->every = 3;
+        force->of = (struct kiln_baked_forces){&f->baked, 1};
+    }
     fixture_finish(f, steps);
 }
 

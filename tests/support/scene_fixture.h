@@ -8,6 +8,7 @@
 struct scene_fixture {
     struct kiln_scene scene;
     float4 keys[KILN_BLOCK_KEYS]; /* scene.keys */
+    struct kiln_force baked;      /* the force that fixture_alone bakes */
 };
 
 /* Makes an empty scene of 300 frames, 60 a second, with one simulation step a frame. Frees the

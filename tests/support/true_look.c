@@ -20,6 +20,11 @@ void true_look(const struct true_scene *t, uint32_t system, uint32_t row,
         float3_length(float3_sub(position, FLOAT3(view->eye.x, view->eye.y, view->eye.z)));
     clocks.velocity = particle_velocity(*record);
     clocks.stream = particle_stream(derived, *record);
+    const uint4 values = t->looks[system].values;
+    if (LOOK_PARENT_SLOTS(values.w) != 0)
+        clocks = particle_clocks_of_child(
+            t->scene->keys, clocks, t->looks[LOOK_PARENT_SYSTEM(values.w)].derived,
+            t->records[LOOK_PARENT_RECORD(values, record->position_serial.w)], *record);
     dvec_look(t->table, system, row, clocks.life, out);
     if (!t->programs)
         return;

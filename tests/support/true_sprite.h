@@ -20,6 +20,7 @@ struct true_scene {
     bool fire_covers; /* additive particles cover, too, or their alpha is summed */
     float4 *table;    /* values of the looks (shared/look_layout.h, draw/moment/look_values.h) */
     const struct kiln_look_program *programs; /* of each system; NULL: values over life alone */
+    const struct kiln_particle *records;      /* of all systems, for looks that are inherited */
 };
 
 struct true_sprite {

@@ -120,7 +120,7 @@ static void errors_say_what_a_colour_is(void **state)
          "test.yaml:2:73: systems.a.look.color: expected [red, green, blue] or one number for "
          "grey, "
          "linear, each from 0 to 1000, or in sRGB \"#e61e28\", \"#abc\" or a name of CSS, or "
-         "{keys: {time: value}}, or {life: [...]}, found the text \"#ff000\""},
+         "source, or {keys: {time: value}}, or {life: [...]}, found the text \"#ff000\""},
         {LOOK("[red, 0, 0]"), "test.yaml:2:74: systems.a.look.color.0: expected a number from 0 to "
                               "1000, found 'red'"},
     };

@@ -1,4 +1,5 @@
-/* lib/scene/family: bad families of systems, and the exact words that say so. */
+/* lib/scene/family, emit_way: bad families of systems, births by the metre and looks of parents,
+ * and the exact words that say so. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -84,6 +85,54 @@ static const struct bad families[] = {
     {"kiln: 1\n"
      "systems: {a: {look: {rotation: [{life: [0, 0]}, {keys: {0 s: 0}}]}}}\n",
      ":2:32: systems.a.look.rotation: both must vary over time, or both over life"},
+    {"kiln: 1\n"
+     "systems: {a: {}, b: {emit: {parent: {system: a}, per_metre: 9}}}\n",
+     ":2:61: systems.b.emit.per_metre: must be 0 for a system with a parent; emit.parent.on sets "
+     "the number of births"},
+    {"kiln: 1\n"
+     "output: {frames: 1e6, fps: 60}\n"
+     "simulation: {rate: 240}\n"
+     "systems: {a: &a {emit: {per_metre: 9}}, b: *a, c: *a, d: *a, e: *a}\n",
+     ":4:10: systems: the ways of emitters by the metre have 19999980 steps; at most 16777216 are "
+     "allowed: shorten the clip, or write `rate` instead"},
+    {"kiln: 1\n"
+     "output: {frames: 600, fps: 60}\n"
+     "systems: {a: {emit: {per_metre: 1e5, from: {point: {origin: {keys: {0 s: [-4e4, 0, 0],\n"
+     "  9 s: [4e4, 0, 0]}}}}}}}\n",
+     ":3:33: systems.a.emit.per_metre: the run has more than 4294967295 births by the metre"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n"
+     "  b: {emit: {parent: {system: a, inherit: {size: true}}}}\n"
+     "  c: {emit: {parent: {system: b, inherit: {size: true}}}}\n",
+     ":5:50: systems.c.emit.parent.inherit.size: must be false, since particles of 'b' have no "
+     "size of their own"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {look: {color: {keys: {0 s: red, 1 s: blue}}}}\n"
+     "  b: {emit: {parent: {system: a, inherit: {color: true}}}}\n",
+     ":4:51: systems.b.emit.parent.inherit.color: systems.a.look.color must be constant or vary "
+     "over life, age or random numbers, since others inherit it"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {look: {temperature: {speed: {0: 900, 9: 1800}}}}\n"
+     "  b: {emit: {parent: {system: a, inherit: {temperature: true}}}}\n",
+     ":4:57: systems.b.emit.parent.inherit.temperature: systems.a.look.temperature must be "
+     "constant or vary over life, age or random numbers, since others inherit it"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n"
+     "  b: {emit: {parent: {system: a, inherit: {size: true}}},\n"
+     "      interact: [collide: {as_drawn: true}]}\n",
+     ":4:50: systems.b.emit.parent.inherit.size: must be false where particles collide as they are "
+     "drawn"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n"
+     "  b: {emit: {parent: {system: a, inherit: {color: true}}}, paint: {},\n"
+     "      collide: {}}\n",
+     ":4:51: systems.b.emit.parent.inherit.color: must be false for a system that paints with its "
+     "own color"},
 };
 
 BAD_TEST(families)

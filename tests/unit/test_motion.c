@@ -184,6 +184,8 @@ static void name_rows(struct named *named, const char *override)
         if (row->name)
             named->rows[named->count++] = row;
         name_inside(named, row, value);
+    } else if (table && value->kind == KILN_NODE_MAP) {
+        name_in_table(named, table, value); /* an entry of a map of names */
     }
     kiln_arena_destroy(&arena);
 }

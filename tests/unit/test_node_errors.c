@@ -120,6 +120,22 @@ static const struct bad attached[] = {
      "systems: {s: {forces: [{wind: {field: vortex, attach: a}}]}}\n",
      ":2:55: systems.s.forces.0.wind.attach: unknown node 'a' (there are none)"},
     {"kiln: 1\n"
+     "systems: {s: {forces: [{gravity: {region: {attach: a, box: {}}}}]}}\n",
+     ":2:52: systems.s.forces.0.gravity.region.attach: unknown node 'a' (there are none)"},
+    {"kiln: 1\n"
+     "systems: {s: {demitters: [{min: [0, 0, 0], max: [1, 1, 1], attach: a}]}}\n",
+     ":2:68: systems.s.demitters.0.attach: unknown node 'a' (there are none)"},
+    {"kiln: 1\n"
+     "systems: {s: {demitters: [{min: [0, 0, 0], max: [1, 1, 1], attach: 1}]}}\n",
+     ":2:68: systems.s.demitters.0.attach: expected the name of a node, or none, found '1'"},
+    {"kiln: 1\n"
+     "systems: {s: {demitters: [{min: [0, 0, 0], attach: a}]}}\n",
+     ":2:27: systems.s.demitters.0: expected {min: [x, y, z], max: [x, y, z]}, each number from "
+     "-100000 m to 100000 m, found a mapping"},
+    {"kiln: 1\n"
+     "systems: {s: {forces: [{limit: {attach: a}}]}}\n",
+     ":2:33: systems.s.forces.0.limit.attach: unknown key (there are: speed)"},
+    {"kiln: 1\n"
      "nodes: {a: {}}\n"
      "systems: {s: {emit: {rate: 1}}, t: {emit: {attach: a, parent: {system: s}}}}\n",
      ":3:52: systems.t.emit.attach: must be none for a system with a parent, around whose "

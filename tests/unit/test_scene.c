@@ -138,7 +138,7 @@ static void every_key_of_a_system_arrives(void **state)
         KILN_FORCE_GRAVITY, KILN_FORCE_GRAVITY, KILN_FORCE_DRAG, KILN_FORCE_DRAG,
         KILN_FORCE_DRAG,    KILN_FORCE_WIND,    KILN_FORCE_WIND, KILN_FORCE_CURL,
         KILN_FORCE_CURL,    KILN_FORCE_CURL,    KILN_FORCE_DRAG, KILN_FORCE_ATTRACT,
-        KILN_FORCE_VORTEX,  KILN_FORCE_VORTEX};
+        KILN_FORCE_VORTEX,  KILN_FORCE_VORTEX,  KILN_FORCE_BAKED};
     assert_int_equal(point->force_count, sizeof kinds / sizeof *kinds);
     for (uint32_t i = 0; i < point->force_count; i++)
         assert_int_equal(point->forces[i].kind, kinds[i]);
@@ -154,12 +154,18 @@ static void every_key_of_a_system_arrives(void **state)
     assert_true(point->forces[12].axis.z.constant == 1 && point->forces[12].radius.constant == 3);
     assert_true(point->forces[12].inward.constant == 1 && point->forces[12].lift.count == 2);
     assert_true(point->forces[13].strength.constant == 5);
+    const struct kiln_force *baked = &point->forces[14];
+    assert_true(baked->box_size.y.constant == 2 && baked->box_center.y.constant == 1);
+    assert_true(baked->cells == 6 && baked->every == 3 && baked->of.count == 3);
+    assert_true(baked->of.at[0].octaves == 2 && baked->of.at[1].air.x.count == 2);
+    assert_int_equal(baked->of.at[2].kind, KILN_FORCE_DRAG);
+    assert_string_equal(baked->of.at[0].attach.name, "hub");
     assert_int_equal(point->collide.mode, KILN_COLLIDE_CLAMP);
     assert_true(point->collide.slowdown.constant == 0.9f);
     assert_int_equal(VALUE_CLOCK(point->collide.restitution.how), KILN_CLOCK_LIFE);
     assert_int_equal(point->collide.friction.count, 2);
     assert_int_equal(point->demitter_count, 2);
-    assert_true(point->demitters[1].enabled && point->demitters[1].max[0] == 3);
+    assert_true(point->demitters[1].box.enabled && point->demitters[1].box.max[0] == 3);
     assert_true(point->bounds.enabled && point->bounds.max[0] == 5);
     kiln_scene_destroy(&scene);
 }
@@ -208,6 +214,19 @@ static void take_attach(struct kiln_attach *left, const struct kiln_attach *righ
     left->name = right->name;
 }
 
+static void take_force(struct kiln_force *left, const struct kiln_force *right)
+{
+    take_attach(&left->attach, &right->attach);
+    take_attach(&left->region.attach, &right->region.attach);
+    if (left->kind != KILN_FORCE_BAKED)
+        return;
+    assert_int_equal(left->of.count, right->of.count);
+    for (uint32_t i = 0; i < left->of.count; i++)
+        take_force(&left->of.at[i], &right->of.at[i]);
+    assert_memory_equal(left->of.at, right->of.at, left->of.count * sizeof *left->of.at);
+    left->of = right->of;
+}
+
 /* Compares the texts and points of nodes, and gives the left scene those of the right one. */
 static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
 {
@@ -226,11 +245,16 @@ static void take_nodes(struct kiln_scene *left, const struct kiln_scene *right)
         }
         node->position.path.points.at = path->points.at;
         node->position.path.table = path->table;
+        assert_string_equal(node->animation.clip, right->nodes[i].animation.clip);
+        node->animation.clip = right->nodes[i].animation.clip;
     }
     for (uint32_t i = 0; i < left->system_count; i++) {
         take_attach(&left->systems[i].emit.attach, &right->systems[i].emit.attach);
         for (uint32_t k = 0; k < left->systems[i].force_count; k++)
-            take_attach(&left->systems[i].forces[k].attach, &right->systems[i].forces[k].attach);
+            take_force(&left->systems[i].forces[k], &right->systems[i].forces[k]);
+        for (uint32_t k = 0; k < left->systems[i].demitter_count; k++)
+            take_attach(&left->systems[i].demitters[k].attach,
+                        &right->systems[i].demitters[k].attach);
     }
     for (uint32_t i = 0; i < left->backdrop.object_count; i++)
         take_attach(&left->backdrop.objects[i].attach, &right->backdrop.objects[i].attach);

@@ -191,6 +191,13 @@ static const struct bad types[] = {
      ":2:31: systems.a.collide.then: must not be stop where particles interact, since nothing "
      "pushes a particle that has stopped"},
     {"kiln: 1\n"
+     "systems: {a: {collide: {dies: true, then: stick}}}\n",
+     ":2:43: systems.a.collide.then: must not be stick where `dies` is true"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: stick}, interact: [collide: {}]}}\n",
+     ":2:31: systems.a.collide.then: must not be stick where particles interact, since nothing "
+     "pushes a particle that has stopped"},
+    {"kiln: 1\n"
      "systems: {a: {forces: [drag: {region: {falloff: 1 m}}]}}\n",
      ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`"},
     {"kiln: 1\n"
@@ -345,16 +352,18 @@ static const struct bad kinds[] = {
     {"kiln: 1\n"
      "systems: {a: {forces: [{wind: {octaves: 2}}]}}\n",
      ":2:32: systems.a.forces.0.wind.octaves: unknown key (there are: velocity, pull, mode, "
-     "region)"},
+     "attach, region)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: {}}}}\n",
-     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone, line, mesh, "
+     "image or path: {...}}, "
      "found "
      "a "
      "mapping"},
     {"kiln: 1\n"
      "systems: {a: {emit: {from: cone}}}\n",
-     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone or line: {...}}, "
+     ":2:28: systems.a.emit.from: expected {point, sphere, box, disc, ring, cone, line, mesh, "
+     "image or path: {...}}, "
      "found "
      "'cone'"},
     {"kiln: 1\n"

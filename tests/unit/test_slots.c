@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "sim/step/bakes.h"
 #include "sim/step/slots.h"
 #include "sim/world/params.h"
 #include "support/balls.h"
@@ -167,6 +168,8 @@ static void run_level(enum kiln_simd simd)
     assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, run.threads, &error));
     const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
     kiln_sim_params_init(params, &fixture.scene, &grids);
+    struct kiln_bakes bakes;
+    assert_true(kiln_bakes_init(&bakes, NULL, &fixture.scene, &grids, &error));
     float4 *pushes = make_pushes(params->push_count);
     struct spins spins = make_spins(params->spin_count);
     struct traces traces = {.count = params->trace_count};
@@ -178,11 +181,13 @@ static void run_level(enum kiln_simd simd)
         assert_true(kiln_volumes_step(&grids.volumes, &fixture.scene, step, run.threads, &error));
         const float4 *planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
+        assert_true(kiln_bakes_step(&bakes, params, run.threads, step, &error));
         uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes,
                                    planes, records, copy, &spins, &traces);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
+    kiln_bakes_finish(&bakes);
     kiln_sim_grids_finish(&grids);
     free(pushes);
     free(spins.words);
@@ -303,6 +308,77 @@ static void whirls(void **state)
     }
 }
 
+/* Lets forces, regions and demitters lie in a node that moves, turns and grows. */
+static void attach_all(struct scene_fixture *f)
+{
+    const struct kiln_attach attach = {.name = "n", .node = 0};
+    struct kiln_scene_node *node = &f->scene.nodes[f->scene.node_count++];
+    *node = (struct kiln_scene_node){.name = "n"};
+    node->position.value.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -0.5f, 2.0f, 0.5f);
+    node->rotation.y = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.3f, 2.0f, 3.0f);
+    node->scale = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.6f, 2.0f, 1.8f);
+    for (uint32_t i = 0; i < f->scene.system_count; i++) {
+        struct kiln_system *system = &f->scene.systems[i];
+        for (uint32_t k = 0; k < system->force_count; k++) {
+            struct kiln_force *force = &system->forces[k];
+            force->attach = (i + k) % 3 ? attach : (struct kiln_attach){.name = NULL};
+            force->region.enabled = force->region.sphere = k % 2;
+            force->region.radius = fixture_constant(1.0f);
+            force->region.falloff = fixture_constant(0.5f);
+            force->region.attach = i % 2 ? attach : (struct kiln_attach){.name = NULL};
+        }
+        for (uint32_t k = 0; k < system->demitter_count; k++)
+            system->demitters[k].attach = attach;
+    }
+}
+
+/* Each integrator, with forces in a node. */
+static void attached(void **state)
+{
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        fixture_zoo(&fixture, (enum kiln_integration)order, 0);
+        fixture_add_whirls(&fixture);
+        fixture_add_field(&fixture.scene.systems[0]);
+        attach_all(&fixture);
+        fixture_finish(&fixture, STEPS);
+        run_levels();
+    }
+}
+
+/* Lets most systems move with a node that flies and turns. */
+static void carry_systems(struct scene_fixture *f)
+{
+    struct kiln_scene_node *node = &f->scene.nodes[f->scene.node_count++];
+    *node = (struct kiln_scene_node){.name = "ship", .scale = fixture_constant(1.0f)};
+    node->position.value.x = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, -1.0f, 2.0f, 3.0f);
+    node->rotation.y = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 4.0f, 20.0f);
+    node->rotation.z = fixture_ramp(f, KILN_CLOCK_TIME, 0.5f, 0.0f, 4.0f, 6.0f);
+    for (uint32_t i = 0; i < f->scene.system_count; i++) {
+        if (i % 4 != 3)
+            f->scene.systems[i].space = (struct kiln_attach){.name = "ship"};
+    }
+}
+
+/* Systems that move with a node, with each integrator and with clamping. */
+static void carried_by_a_node(void **state)
+{
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        fixture_zoo(&fixture, (enum kiln_integration)order, 0);
+        carry_systems(&fixture);
+        fixture_finish(&fixture, STEPS);
+        fixture_add_oriented(&fixture);
+        run_levels();
+        fixture.scene.systems[0].collide.mode = KILN_COLLIDE_CLAMP;
+        run_levels();
+    }
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    carry_systems(&fixture);
+    fixture_finish(&fixture, STEPS);
+    run_levels();
+}
+
 /* Births, deaths and bounces of parents, with each integrator. */
 static void families(void **state)
 {
@@ -354,6 +430,8 @@ int main(void)
         cmocka_unit_test(pushed_among_colliders),
         cmocka_unit_test(clamped_among_turning_colliders),
         cmocka_unit_test(whirls),
+        cmocka_unit_test(attached),
+        cmocka_unit_test(carried_by_a_node),
         cmocka_unit_test(families),
         cmocka_unit_test(pushed_families),
         cmocka_unit_test(each_force_alone),

@@ -89,13 +89,15 @@ static void vectors_live_as_long(void **state)
         const struct vf_particles p = read_records(records, slots);
         vu stream = vu_mix(p.serial + params.random_key);
         vf age = vf_age(p.birth, 250, 0.25f, params.dt_s);
+        vf turned = vf_turned(&p, age, params.dt_s);
         vf life = vf_life(keys, &params, stream, p.birth), progress = vf_progress(age, life);
         for (int k = 0; k < LANES; k++) {
             const struct kiln_particle one = records[slots[k]];
             float age_s = particle_age_before(one, 250, 0.25f, params.dt_s);
             float life_s = particle_life_s(keys, params, one);
             assert_true(FLOAT_BITS(p.position.y[k]) == one.position_serial.y);
-            assert_true(FLOAT_BITS(p.velocity.z[k]) == one.velocity_birth.z);
+            assert_true(FLOAT_BITS(p.velocity.z[k]) == FLOAT_BITS(particle_velocity(one).z));
+            assert_true(turned[k] == particle_turned_s(one, age_s, params.dt_s));
             assert_true(stream[k] == particle_stream(params, one));
             assert_true(age[k] == age_s && life[k] == life_s);
             assert_true(progress[k] == particle_progress(age_s, life_s));

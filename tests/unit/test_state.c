@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "job/state.h"
 #include "job/states.h"
@@ -38,10 +39,10 @@ static void take_up(struct simulation *run, struct kiln_state *state)
     run->step = state->info.step;
 }
 
-/* Saves after so many steps, goes on in another run, and compares with one that never stopped. */
-static void check_scene(const char *fixture, const char *override, uint32_t steps)
+/* Saves after so many steps, goes on in another run, and compares with one that never stopped.
+ * Destroys the scene. */
+static void check(struct kiln_scene *scene, const char *name, uint32_t steps)
 {
-    struct kiln_scene *scene = load_fixture(fixture, override);
     struct simulation whole, first, second;
     simulation_start_with(&whole, scene, NULL, KILN_SIMULATE_CPU, 2);
     simulation_start_with(&first, scene, NULL, KILN_SIMULATE_CPU, 2);
@@ -62,12 +63,17 @@ static void check_scene(const char *fixture, const char *override, uint32_t step
     hash = simulation_hash(&second, &alive);
     const struct kiln_state_hash expected = simulation_hash(&whole, &expected_alive);
     if (memcmp(&hash, &expected, sizeof hash) != 0 || alive != expected_alive)
-        fail_msg("%s from step %u: another state after 120 steps", fixture, steps);
+        fail_msg("%s from step %u: another state after 120 steps", name, steps);
     assert_true(alive > 100);
     simulation_end(&whole);
     simulation_end(&first);
     simulation_end(&second);
     kiln_scene_destroy(&scene);
+}
+
+static void check_scene(const char *fixture, const char *override, uint32_t steps)
+{
+    check(load_fixture(fixture, override), fixture, steps);
 }
 
 static void runs_go_on(void **state)
@@ -77,7 +83,37 @@ static void runs_go_on(void **state)
     check_scene("rest", NULL, 119);
     check_scene("rest", "systems.drops.emit.rate=200000", 60); /* several blocks */
     check_scene("surfaces", NULL, 60);                         /* canvases, a mesh that moves */
+    /* ways of balls that spin, impacts that are counted, particles that stick */
+    check_scene("rest", "systems.shards.emit.parent.on={trail: {per_metre: 20}}", 57);
+    check_scene("rest", "systems.shards.emit.parent.on={bounce: {count: 2, every: true}}", 57);
+    check_scene("rest", "systems.shards.emit.parent.on={bounce: {every: true, most: 5}}", 57);
+    check_scene("rest", "systems.shards.emit.parent.inherit.color=true", 57);
+    check_scene("surfaces", "systems.drops.collide.then=stick", 60);
     check_scene("surfaces", "backdrop.objects.2.mesh.paint.per_step=2", 60); /* splats that wait */
+}
+
+/* Births on meshes, also on one with an animation, and on images and paths. */
+static void sources_go_on(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "kiln: 1\noutput: {frames: 120, fps: 60}\n"
+        "backdrop: {objects: {part: {mesh: {file: moving.gltf, animation: {},\n"
+        "  position: {keys: {0 s: [0, 0, 0], 2 s: [3, 0, 0]}}}}}}\n"
+        "systems:\n"
+        "  file: {emit: {rate: 300, life: [1 s, 2 s], from: {mesh: {file: card.obj}}}}\n"
+        "  part: {emit: {rate: 300, life: 1 s, inherit: 1, from: {mesh: {object: part}}}}\n"
+        "  logo: {emit: {rate: 300, life: 1 s, from: {image: disc.png}}}\n"
+        "  path: {emit: {bursts: {0.1 s: 40, 1.2 s: 40}, life: 1 s,\n"
+        "    from: {path: {points: [[0, 0, 0], [1, 1, 0], [2, 0, 0]], ordered: true}}}}\n";
+    char folder[4096];
+    assert_non_null(getcwd(folder, sizeof folder));
+    for (uint32_t steps = 57; steps < 100; steps += 33) {
+        assert_int_equal(chdir(KILN_SOURCE_DIR "/tests/mutation"), 0);
+        struct kiln_scene *scene = load_scene(text, NULL);
+        assert_int_equal(chdir(folder), 0);
+        check(scene, "sources", steps);
+    }
 }
 
 /* Also into a pool that has run and painted already. */
@@ -269,6 +305,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(runs_go_on, test_enter_folder, test_leave_folder),
+        cmocka_unit_test_setup_teardown(sources_go_on, test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(states_replace_what_is_there, test_enter_folder,
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(histories_are_kept, test_enter_folder, test_leave_folder),

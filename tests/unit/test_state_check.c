@@ -120,8 +120,6 @@ static void particles_are_checked(void **state)
         {&p->position_serial.y, 1, "position, m along y: found 1.4013e-45, " RANGE},
         {&p->velocity_birth.x, bits_of(-INFINITY), "velocity, m/s along x: found -inf, " RANGE},
         {&p->velocity_birth.z, 0xffffffffu, "velocity, m/s along z: found -nan, " RANGE},
-        {&p->velocity_birth.w, p->velocity_birth.w | 8u,
-         "found the flags 9, expected 1, 3, 5 or 7"},
         {&p->velocity_birth.w, 1u, "step of birth: found 0, expected 1 to 70"},
         {&p->velocity_birth.w, 71u << KILN_BIRTH_STEP_SHIFT | 1u,
          "step of birth: found 71, expected 1 to 70"},
@@ -162,6 +160,111 @@ static void spins_are_checked(void **state)
                "pose: found a squared length of inf, expected 1");
     check_word(&runs, &s->pose.x, 0x7fc00000u, place,
                "pose: found a squared length of nan, expected 1");
+    end(&runs);
+}
+
+static void ways_are_checked(void **state)
+{
+    (void)state;
+    struct runs runs;
+    struct kiln_error error = {0};
+    start(&runs, "rest", "systems.shards.emit.parent.on={trail: {per_metre: 20}}");
+    const struct kiln_pool_system *slots = &runs.first.pool.systems[1];
+    struct kiln_spin *ways = kiln_buffer_host(&runs.first.pool.spins, KILN_READ_WRITE, &error);
+    assert_non_null(ways);
+    assert_true(slots->travels && slots->first_way == slots->first_spin + slots->capacity);
+    const uint32_t slot = find_slot(&runs.first, 1, true);
+    struct kiln_spin *way = &ways[slots->first_way + slot];
+    char place[64];
+    assert_true(way->rate.x > 0);
+    snprintf(place, sizeof place, "system 1, slot %u", slot);
+    check_word(&runs, &way->rate.z, 1001, place, "impacts: found 1001, expected 0 to 1000");
+    check_word(&runs, &way->rate.w, 1, place, "way: found words that are not 0");
+    check_word(&runs, &way->pose.y, 1, place, "way: found words that are not 0");
+    end(&runs);
+}
+
+/* A particle that has stopped has its rest in the words of the velocity. */
+static void rests_are_checked(void **state)
+{
+    (void)state;
+    struct runs runs;
+    start(&runs, "surfaces", "systems.drops.collide.then=stick");
+    const struct kiln_pool_system *slots = &runs.first.pool.systems[0];
+    struct kiln_particle *p = &records_of(&runs.first)[slots->base];
+    uint32_t slot = 0;
+    while (!particle_has_stopped(*p)) {
+        slot++;
+        p++;
+    }
+    char place[64], message[96];
+    snprintf(place, sizeof place, "system 0, slot %u", slot);
+    snprintf(message, sizeof message, "step of its rest: found 71, expected %u to 70",
+             particle_birth_step(*p));
+    check_word(&runs, &p->velocity_birth.x, 71u << KILN_REST_STEP_SHIFT, place, message);
+    snprintf(message, sizeof message, "step of its rest: found 0, expected %u to 70",
+             particle_birth_step(*p));
+    check_word(&runs, &p->velocity_birth.x, 0, place, message);
+    check_word(&runs, &p->velocity_birth.y, 258, place,
+               "object that it rides: found 258, expected 0 to 257");
+    check_word(&runs, &p->velocity_birth.z, 1, place,
+               "the last word of its rest: found 1, expected 0");
+    struct kiln_error error = {0};
+    p->velocity_birth.y = 6; /* of four objects and the floor */
+    assert_false(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 FILE_NAME ": systems.drops, slot %u: object that it rides: found 6, expected 0 to "
+                           "5",
+                 slot);
+    for (uint32_t i = 0; i < slots->capacity; i++) { /* as those that stop where they hit */
+        struct kiln_particle *drop = &records_of(&runs.first)[slots->base + i];
+        drop->velocity_birth.y = particle_has_stopped(*drop) ? 0 : drop->velocity_birth.y;
+    }
+    runs.scene->systems[0].collide.then = KILN_THEN_STOP;
+    assert_true(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));
+    p->velocity_birth.y = 1;
+    assert_false(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 FILE_NAME ": systems.drops, slot %u: object that it rides: found 1, expected 0 to "
+                           "0",
+                 slot);
+    p->velocity_birth.y = 0;
+    runs.scene->systems[0].collide.then = KILN_THEN_BOUNCE;
+    assert_false(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 FILE_NAME ": systems.drops, slot %u: found a particle that has stopped, which "
+                           "nothing stops",
+                 slot);
+    end(&runs);
+}
+
+/* Where children inherit the look of a parent, a dead parent's serial and birth are left. */
+static void remains_are_checked(void **state)
+{
+    (void)state;
+    struct runs runs;
+    struct kiln_error error = {0};
+    start(&runs, "rest", "systems.shards.emit.parent.inherit.color=true");
+    const struct kiln_pool_system *slots = &runs.first.pool.systems[1];
+    const uint32_t slot = find_slot(&runs.first, 1, false);
+    struct kiln_particle *p = &records_of(&runs.first)[slots->base + slot];
+    char place[64], message[96];
+    assert_true(particle_is_there(*p));
+    snprintf(place, sizeof place, "system 1, slot %u", slot);
+    check_word(&runs, &p->position_serial.x, bits_of(1.0f), place,
+               "found a dead particle that is not empty");
+    check_word(&runs, &p->velocity_birth.w, p->velocity_birth.w | KILN_PARTICLE_HIT, place,
+               "found a dead particle that is not empty");
+    check_word(&runs, &p->velocity_birth.w, 71u << KILN_BIRTH_STEP_SHIFT, place,
+               "step of birth: found 71, expected 1 to 70");
+    snprintf(message, sizeof message, "serial: found %u, expected one of this slot below %u",
+             slot + 1, (uint32_t)slots->next_serial);
+    check_word(&runs, &p->position_serial.w, slot + 1, place, message);
+    runs.scene->systems[2].emit.parent.look.color = false;
+    assert_false(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 FILE_NAME ": systems.balls, slot %u: found a dead particle that is not empty",
+                 slot);
     end(&runs);
 }
 
@@ -302,6 +405,9 @@ int main(void)
                                         test_leave_folder),
         cmocka_unit_test_setup_teardown(spins_are_checked, test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(paint_is_checked, test_enter_folder, test_leave_folder),
+        cmocka_unit_test(ways_are_checked),
+        cmocka_unit_test(rests_are_checked),
+        cmocka_unit_test(remains_are_checked),
         cmocka_unit_test(births_are_counted),
         cmocka_unit_test_setup_teardown(jobs_refuse_it, test_enter_folder, test_leave_folder),
     };

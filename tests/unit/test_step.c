@@ -269,8 +269,8 @@ static void demitters_bounds_and_absurdity_kill(void **state)
         struct kiln_system *system = one_particle(&fixture); /* passes (1.5, 2, 0) at 0.5 s */
         if (kind == 0) {
             system->demitter_count = 2;
-            system->demitters[0] = (struct kiln_bounds){true, {9, 9, 9}, {10, 10, 10}};
-            system->demitters[1] = (struct kiln_bounds){true, {1.5f, 1, -1}, {4, 4, 1}};
+            system->demitters[0] = (struct kiln_demitter){.box = {true, {9, 9, 9}, {10, 10, 10}}};
+            system->demitters[1] = (struct kiln_demitter){.box = {true, {1.5f, 1, -1}, {4, 4, 1}}};
         } else if (kind == 1) {
             system->bounds = (struct kiln_bounds){true, {-1, -1, -1}, {9, 2, 1}};
         } else if (kind == 2) { /* 2 * 500000 m/s^2 * t passes 2^20 m/s soon after 0.5 s */

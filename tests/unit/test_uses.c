@@ -7,6 +7,8 @@
 #include "base/text.h"
 #include "shared/uses.h"
 #include "sim/step/uses.h"
+#include "sim/world/grids.h"
+#include "sim/world/params.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
 
@@ -109,9 +111,63 @@ static void forces_are_known(void **state)
         {"systems.a.forces=[drag: 1, wind: {}]", BIT(FORCE_DRAG) | BIT(FORCE_WIND)},
         {"systems.a.forces=[curl: {}, attract: {}]", BIT(FORCE_CURL) | BIT(FORCE_ATTRACT)},
         {"systems.a.forces=[vortex: 1]", BIT(FORCE_VORTEX)},
+        /* the forces of a baked wind are for the kernel that writes it */
+        {"systems.a.forces=[wind: {baked: {box: {size: [1, 1, 1]}, of: [vortex: 1, curl: 1]}}]",
+         BIT(FORCE_BAKED)},
         {"systems.a.forces=[drag: {region: {sphere: {}}}]", BIT(FORCE_DRAG) | BIT(FORCE_IN_REGION)},
+        {"nodes={n: {}};systems.a.forces=[drag: {attach: n}]",
+         BIT(FORCE_DRAG) | BIT(FORCE_IN_NODE)},
+        {"nodes={n: {}};systems.a.forces=[drag: {region: {attach: n, sphere: {}}}]",
+         BIT(FORCE_DRAG) | BIT(FORCE_IN_NODE) | BIT(FORCE_IN_REGION)},
     };
     EXPECT("USES_FORCES", uses);
+    static const struct use ends[] = {
+        {NULL, 0},
+        {"systems.a.demitters=[{min: [0, 0, 0], max: [1, 1, 1]}]", 0},
+        {"nodes={n: {}};systems.a.demitters=[{min: [0, 0, 0], max: [1, 1, 1], attach: n}]",
+         BIT(DEMITTER_IN_NODE)},
+    };
+    EXPECT("USES_DEMITTERS", ends);
+}
+
+/* Returns the forces that the kernel has which writes the baked winds of BASE with this override;
+ * *all: whether it needs FORCES_ALL. */
+static unsigned long baked(const char *forces, bool *all)
+{
+    static const char name[] = "#define USES_FORCES ";
+    const char *const overrides[] = {"nodes={n: {}}", forces, NULL};
+    struct kiln_error error = {0};
+    struct kiln_scene *scene = load_scene(BASE, overrides);
+    struct kiln_sim_grids *grids = calloc(1, sizeof *grids);
+    struct kiln_threads *threads = kiln_threads_create(1);
+    struct kiln_text defines = {0};
+    assert_true(grids && threads);
+    assert_true(kiln_sim_grids_init(grids, NULL, scene, threads, &error));
+    kiln_sim_add_bake_uses(&defines, scene, grids);
+    *all = kiln_sim_bakes_need_all_forces(scene, grids);
+    assert_false(defines.failed);
+    const unsigned long mask = strtoul(strstr(defines.data, name) + strlen(name), NULL, 10);
+    kiln_text_free(&defines);
+    kiln_sim_grids_finish(grids);
+    free(grids);
+    kiln_threads_destroy(&threads);
+    kiln_scene_destroy(&scene);
+    return mask;
+}
+
+#define OF(forces) "systems.a.forces=[wind: {baked: {box: {size: [1, 1, 1]}, of: [" forces "]}}]"
+
+static void forces_of_baked_winds_are_known(void **state)
+{
+    (void)state;
+    bool all;
+    assert_int_equal(baked(OF("curl: 1, gravity: {}"), &all), BIT(FORCE_CURL) | BIT(FORCE_GRAVITY));
+    assert_false(all);
+    assert_int_equal(baked(OF("drag: {attach: n, region: {sphere: {}}}"), &all),
+                     BIT(FORCE_DRAG) | BIT(FORCE_IN_NODE) | BIT(FORCE_IN_REGION));
+    assert_false(all);
+    assert_int_equal(baked(OF("vortex: 1"), &all), BIT(FORCE_VORTEX));
+    assert_true(all);
 }
 
 static void shapes_of_emitters_are_known(void **state)
@@ -169,15 +225,19 @@ static void modes_of_collision_are_known(void **state)
         used("systems={a: {emit: {rate: 1}}, b: {emit: {parent: {system: a, on: {death: 2}}}}}",
              "USES_BIRTHS", true),
         BIT(BORN_OF_CLOCK) | BIT(BORN_OF_DEATH));
+    assert_int_equal(used("systems.a.collide={then: stick}", "USES_THEN", true), BIT(THEN_STICK));
     assert_int_equal(used("simulation.integration=rk4", "USES_INTEGRATION", false), INTEGRATE_RK4);
 }
 
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_with_keys_are_known),   cmocka_unit_test(forces_are_known),
-        cmocka_unit_test(shapes_of_emitters_are_known), cmocka_unit_test(colliders_are_known),
+        cmocka_unit_test(values_with_keys_are_known),
+        cmocka_unit_test(forces_are_known),
+        cmocka_unit_test(shapes_of_emitters_are_known),
+        cmocka_unit_test(colliders_are_known),
         cmocka_unit_test(modes_of_collision_are_known),
+        cmocka_unit_test(forces_of_baked_winds_are_known),
     };
     return cmocka_run_group_tests_name("uses", tests, NULL, NULL);
 }

@@ -10,6 +10,7 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result,
     struct kiln_looks_result *looks = &result->looks;
     const size_t vertices = result->vertex_count;
     const bool moving = wanted->moving, materials = wanted->materials;
+    const bool clips = moving || wanted->rig;
     const struct {
         void *array;
         size_t count, size;
@@ -27,13 +28,14 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result,
          materials && looks->has_second_uvs},
         {skin->nodes, skin->node_count, sizeof *skin->nodes, moving},
         {skin->bones, skin->bone_count, sizeof *skin->bones, moving},
-        {skin->clips, skin->clip_count, sizeof *skin->clips, moving},
-        {skin->channels, skin->channel_count, sizeof *skin->channels, moving},
-        {skin->keys, skin->key_count, sizeof *skin->keys, moving},
+        {skin->clips, skin->clip_count, sizeof *skin->clips, clips},
+        {skin->channels, skin->channel_count, sizeof *skin->channels, clips},
+        {skin->keys, skin->key_count, sizeof *skin->keys, clips},
         {skin->weights, vertices, sizeof *skin->weights, moving},
         {skin->morphs, skin->morph_count, sizeof *skin->morphs, moving},
         {skin->morph_channels, skin->morph_channel_count, sizeof *skin->morph_channels, moving},
         {skin->deltas, skin->delta_count, sizeof *skin->deltas, moving},
+        {result->rig.nodes, result->rig.node_count, sizeof *result->rig.nodes, wanted->rig},
     };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         if (arrays[i].wanted && arrays[i].count > 0 &&

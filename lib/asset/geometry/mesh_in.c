@@ -247,9 +247,14 @@ static bool receive_array(void *user, void *array, size_t bytes)
 }
 
 /* Checks the counts of an answer before any array is received. */
-static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving)
+static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving, bool rig)
 {
     const struct kiln_skin_result *skin = &result->skin;
+    if (rig)
+        return result->vertex_count == 0 && result->triangle_count == 0 &&
+               result->rig.node_count <= KILN_MAX_RIG_NODES && skin->clip_count <= KILN_MAX_CLIPS &&
+               skin->channel_count <= KILN_MAX_CLIP_CHANNELS &&
+               skin->key_count <= KILN_MAX_CLIP_KEYS;
     const struct kiln_looks_result *looks = &result->looks;
     return result->vertex_count >= 3 && result->vertex_count <= KILN_MAX_MESH_VERTICES &&
            result->triangle_count >= 1 && result->triangle_count <= KILN_MAX_MESH_TRIANGLES &&
@@ -277,6 +282,7 @@ static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mes
     result->skin.morph_count = answer->morphs;
     result->skin.morph_channel_count = answer->morph_channels;
     result->skin.delta_count = answer->deltas;
+    result->rig.node_count = answer->nodes;
     result->looks.material_count = answer->materials;
     result->looks.texture_count = answer->textures;
     result->looks.byte_count = answer->texture_bytes;
@@ -308,7 +314,7 @@ static bool receive_arrays(struct request *request, struct kiln_mesh_result *res
 {
     const bool moving = request->wanted.moving;
     struct receiving receiving = {request, reason};
-    if (!are_counts_sound(result, moving))
+    if (!are_counts_sound(result, moving, request->wanted.rig))
         return kiln_error_set(reason, KILN_INVALID_INPUT,
                               "the importer returned inconsistent data");
     return allocate_arrays(request, result, reason) &&
@@ -368,16 +374,23 @@ static bool receive(struct request *request, int file, struct kiln_mesh_result *
     return ok || kiln_helper_fail(request->name, &reason, error);
 }
 
-/* Holds what a file is imported as: a mesh, or a skin. */
+/* Holds what a file is imported as: a mesh, a skin or a rig. */
 struct imported {
     struct kiln_mesh *mesh;
     struct kiln_skin *skin; /* of a mesh that moves */
+    struct kiln_rig *rig;
 };
 
 static struct imported take(struct request *request, const struct kiln_mesh_result *result,
                             struct kiln_error *error)
 {
-    struct imported imported = {NULL, NULL};
+    struct imported imported = {.mesh = NULL};
+    if (request->wanted.rig) {
+        char hash[65];
+        kiln_hash_sha256(request->hashes, request->hash_length, hash);
+        imported.rig = kiln_rig_take(request->name, result, hash, error);
+        return imported;
+    }
     if (!check(request->name, result, error))
         return imported;
     const bool uvs = request->wanted.uvs || (request->wanted.materials && result->looks.has_uvs);
@@ -472,7 +485,7 @@ static bool find_format(struct request *request, struct kiln_error *error)
 
 static struct imported import(struct request *request, int file, struct kiln_error *error)
 {
-    struct imported imported = {NULL, NULL};
+    struct imported imported = {.mesh = NULL};
     if (!note_contents(request, file, error))
         return imported;
     struct kiln_mesh_result *result = calloc(1, sizeof *result);
@@ -492,7 +505,7 @@ static struct imported import(struct request *request, int file, struct kiln_err
 
 static struct imported load(struct request *request, struct kiln_error *error)
 {
-    struct imported imported = {NULL, NULL};
+    struct imported imported = {.mesh = NULL};
     const struct kiln_loader_file named = {request->name, "mesh", ALLOWED, KILN_MAX_MESH_BYTES};
     size_t size = 0;
     const int file =
@@ -507,7 +520,7 @@ static struct imported load(struct request *request, struct kiln_error *error)
 static struct imported parse(struct request *request, const void *bytes, size_t size,
                              struct kiln_error *error)
 {
-    struct imported imported = {NULL, NULL};
+    struct imported imported = {.mesh = NULL};
     request->alone = true;
     const bool may_be =
         kiln_file_check_size(request->name, "mesh", size, KILN_MAX_MESH_BYTES, error) &&
@@ -567,4 +580,18 @@ struct kiln_skin *kiln_skin_load(struct kiln_loader *loader, const char *path,
 {
     struct request request = {.loader = loader, .name = path, .wanted = {.moving = 1}};
     return load(&request, error).skin;
+}
+
+struct kiln_rig *kiln_rig_parse(const void *bytes, size_t size, const char *name,
+                                struct kiln_error *error)
+{
+    struct request request = {.name = name, .wanted = {.rig = 1}};
+    return parse(&request, bytes, size, error).rig;
+}
+
+struct kiln_rig *kiln_rig_load(struct kiln_loader *loader, const char *path,
+                               struct kiln_error *error)
+{
+    struct request request = {.loader = loader, .name = path, .wanted = {.rig = 1}};
+    return load(&request, error).rig;
 }

@@ -9,6 +9,7 @@
 
 #include "asset/geometry/material_in.h"
 #include "asset/geometry/mesh.h"
+#include "asset/geometry/rig_in.h"
 #include "asset/geometry/skin_in.h"
 #include "asset/loader/protocol.h"
 
@@ -18,7 +19,8 @@ struct kiln_mesh_result {
     uint32_t vertex_count, triangle_count, morph_target_count;
     float vertices[KILN_MAX_MESH_VERTICES][6]; /* position and normal */
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
-    struct kiln_skin_result skin;         /* filled for a mesh that moves */
+    struct kiln_skin_result skin;         /* filled for a mesh that moves; of a rig, its clips */
+    struct kiln_rig_result rig;           /* filled if it was asked for, and then no vertices are */
     struct kiln_looks_result looks;       /* filled if materials were asked for */
     float uvs[KILN_MAX_MESH_VERTICES][2]; /* filled if they were asked for */
     /* what was changed or left out, for the user: a line each, none at the end */
@@ -38,6 +40,15 @@ void kiln_mesh_find_bounds(struct kiln_mesh *mesh);
 /* Checks the part `skin` of a result (skin_check.c). */
 bool kiln_skin_check(const char *name, const struct kiln_mesh_result *result,
                      struct kiln_error *error);
+
+/* Checks the clips of a result that has as many nodes and no morph targets (skin_check.c). */
+bool kiln_clips_check(const char *name, const struct kiln_mesh_result *result, uint32_t node_count,
+                      struct kiln_error *error);
+
+/* Checks the nodes and clips of a result and makes a rig of them (rig.c). NULL with an error. hash:
+ * of the contents of the files. */
+struct kiln_rig *kiln_rig_take(const char *name, const struct kiln_mesh_result *result,
+                               const char hash[65], struct kiln_error *error);
 
 /* Checks the part `skin` of a result and makes a skin of it (skin.c). The mesh is made from the
  * rest of the same result, which mesh_in.c has checked. This takes ownership of the mesh, also on

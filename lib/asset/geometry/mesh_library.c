@@ -1,5 +1,6 @@
 /* This file keeps the meshes of a scene in a list, since scenes name few files. A file is imported
- * once for each way that is asked for: plain, with texture coordinates, or moving. */
+ * once for each way that is asked for: plain, with texture coordinates, moving, or its nodes alone.
+ */
 #include "asset/geometry/mesh_library.h"
 
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 
-enum way { PLAIN, UNWRAPPED, MOVING };
+enum way { PLAIN, UNWRAPPED, MOVING, NODES };
 
 struct entry {
     struct entry *next;
@@ -17,6 +18,7 @@ struct entry {
     enum way way;
     struct kiln_mesh *mesh; /* NULL if the mesh moves */
     struct kiln_skin *skin;
+    struct kiln_rig *rig; /* of nodes alone */
 };
 
 struct kiln_mesh_library {
@@ -36,6 +38,7 @@ static void destroy_entry(struct entry *entry)
 {
     kiln_mesh_destroy(&entry->mesh);
     kiln_skin_destroy(&entry->skin);
+    kiln_rig_destroy(&entry->rig);
     free(entry->path);
     free(entry);
 }
@@ -56,6 +59,10 @@ static bool import(const struct kiln_mesh_library *library, struct entry *entry,
                    struct kiln_error *error)
 {
     const char *path = entry->path;
+    if (entry->way == NODES) {
+        entry->rig = kiln_rig_load(library->loader, path, error);
+        return entry->rig != NULL;
+    }
     if (entry->way == MOVING)
         entry->skin = kiln_skin_load(library->loader, path, error);
     else if (entry->way == UNWRAPPED)
@@ -113,6 +120,13 @@ const struct kiln_skin *kiln_mesh_library_get_skin(struct kiln_mesh_library *lib
     return entry ? entry->skin : NULL;
 }
 
+const struct kiln_rig *kiln_mesh_library_get_rig(struct kiln_mesh_library *library,
+                                                 const char *path, struct kiln_error *error)
+{
+    const struct entry *entry = get(library, path, NODES, error);
+    return entry ? entry->rig : NULL;
+}
+
 /* Orders by path; of one path, a mesh that moves comes first, since it tells most. */
 static int by_path(const void *a, const void *b)
 {
@@ -133,8 +147,10 @@ bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,
     const struct entry **entries = malloc((count + 1) * sizeof *entries);
     bool ok = entries != NULL;
     count = 0;
-    for (const struct entry *entry = library->entries; ok && entry; entry = entry->next)
-        entries[count++] = entry;
+    for (const struct entry *entry = library->entries; ok && entry; entry = entry->next) {
+        if (entry->way != NODES)
+            entries[count++] = entry;
+    }
     if (ok)
         qsort(entries, count, sizeof(struct entry *), by_path);
     for (size_t i = 0; ok && i < count; i++) {
@@ -150,7 +166,11 @@ bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,
 uint64_t kiln_mesh_library_bytes(const struct kiln_mesh_library *library)
 {
     uint64_t bytes = 0;
-    for (const struct entry *entry = library->entries; entry; entry = entry->next)
-        bytes += entry->skin ? kiln_skin_bytes(entry->skin) : kiln_mesh_bytes(entry->mesh);
+    for (const struct entry *entry = library->entries; entry; entry = entry->next) {
+        if (entry->rig)
+            bytes += kiln_rig_bytes(entry->rig);
+        else
+            bytes += entry->skin ? kiln_skin_bytes(entry->skin) : kiln_mesh_bytes(entry->mesh);
+    }
     return bytes;
 }

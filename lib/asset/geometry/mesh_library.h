@@ -4,6 +4,7 @@
 #ifndef KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 #define KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 
+#include "asset/geometry/rig.h"
 #include "asset/geometry/skin.h"
 
 struct kiln_mesh_library;
@@ -15,9 +16,9 @@ struct kiln_mesh_library *kiln_mesh_library_create(struct kiln_loader *loader);
 /* Frees the library and all its meshes. */
 void kiln_mesh_library_destroy(struct kiln_mesh_library **library);
 
-/* Return the result of kiln_mesh_load, kiln_mesh_load_unwrapped or kiln_skin_load for a file, which
- * is imported unless the library has it. Errors are those of these functions, and KILN_OVER_LIMIT.
- * The library owns the result. */
+/* Return the result of kiln_mesh_load, kiln_mesh_load_unwrapped, kiln_skin_load or kiln_rig_load
+ * for a file, which is imported unless the library has it. Errors are those of these functions, and
+ * KILN_OVER_LIMIT. The library owns the result. */
 const struct kiln_mesh *kiln_mesh_library_get(struct kiln_mesh_library *library, const char *path,
                                               struct kiln_error *error);
 const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library *library,
@@ -25,11 +26,14 @@ const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library
 const struct kiln_skin *kiln_mesh_library_get_skin(struct kiln_mesh_library *library,
                                                    const char *path, struct kiln_error *error);
 
-/* Returns the bytes of all meshes and skins. */
+const struct kiln_rig *kiln_mesh_library_get_rig(struct kiln_mesh_library *library,
+                                                 const char *path, struct kiln_error *error);
+
+/* Returns the bytes of all meshes, skins and rigs. */
 uint64_t kiln_mesh_library_bytes(const struct kiln_mesh_library *library);
 
-/* Visits each file of the library once, in the order of the paths. skin: of a mesh that moves, else
- * NULL. Stops and returns false when a visit does, or when memory is short. */
+/* Visits each file of the library that has a mesh once, in the order of the paths. skin: of a mesh
+ * that moves, else NULL. Stops and returns false when a visit does, or when memory is short. */
 bool kiln_mesh_library_visit(const struct kiln_mesh_library *library,
                              bool (*visit)(void *user, const char *path,
                                            const struct kiln_mesh *mesh,

@@ -46,19 +46,20 @@ static bool is_clip(const struct kiln_skin_result *r, const struct kiln_skin_cli
 
 /* Checks the ranges of clips, channels and keys. They must follow one another, since overlapping
  * ranges could make work without end. */
-static bool are_clips_sound(const struct kiln_skin_result *r)
+static bool are_clips_sound(const struct kiln_skin_result *r, uint32_t node_count,
+                            uint32_t morph_count)
 {
     uint32_t channels = 0, morphs = 0, keys = 0;
     bool good = true;
     for (uint32_t i = 0; good && i < r->clip_count; i++)
         good = is_clip(r, &r->clips[i], &channels, &morphs);
     for (uint32_t i = 0; good && i < r->channel_count; i++) {
-        good = r->channels[i].node < r->node_count;
+        good = r->channels[i].node < node_count;
         for (int k = 0; good && k < KILN_CHANNEL_TRACKS; k++)
             good = is_track(&r->channels[i].tracks[k], r->key_count, &keys);
     }
     for (uint32_t i = 0; good && i < r->morph_channel_count; i++)
-        good = r->morph_channels[i].morph < r->morph_count &&
+        good = r->morph_channels[i].morph < morph_count &&
                is_track(&r->morph_channels[i].track, r->key_count, &keys);
     return good;
 }
@@ -79,6 +80,13 @@ static bool are_morphs_sound(const struct check *check)
     return true;
 }
 
+static bool refuse_data(const struct check *check)
+{
+    return kiln_error_set(check->error, KILN_INVALID_INPUT,
+                          "%s: the animation is broken: the importer returned inconsistent data",
+                          check->name);
+}
+
 static bool check_counts(const struct check *check)
 {
     const struct kiln_skin_result *r = &check->result->skin;
@@ -92,11 +100,8 @@ static bool check_counts(const struct check *check)
         good = r->nodes[i].parent < i;
     for (uint32_t i = 0; good && i < r->bone_count; i++)
         good = r->bones[i].node < r->node_count;
-    good = good && are_clips_sound(r) && are_morphs_sound(check);
-    return good ||
-           kiln_error_set(check->error, KILN_INVALID_INPUT,
-                          "%s: the animation is broken: the importer returned inconsistent data",
-                          check->name);
+    good = good && are_clips_sound(r, r->node_count, r->morph_count) && are_morphs_sound(check);
+    return good || refuse_data(check);
 }
 
 static bool check_matrices(const struct check *check)
@@ -196,6 +201,18 @@ static bool check_weights(const struct check *check)
                                   check->name, i, (double)sum);
     }
     return true;
+}
+
+bool kiln_clips_check(const char *name, const struct kiln_mesh_result *result, uint32_t node_count,
+                      struct kiln_error *error)
+{
+    const struct check check = {name, result, error};
+    const struct kiln_skin_result *r = &result->skin;
+    const bool good =
+        r->clip_count <= KILN_MAX_CLIPS && r->channel_count <= KILN_MAX_CLIP_CHANNELS &&
+        r->key_count <= KILN_MAX_CLIP_KEYS && r->morph_channel_count <= KILN_MAX_CLIP_MORPHS &&
+        are_clips_sound(r, node_count, 0);
+    return good ? check_tracks(&check) : refuse_data(&check);
 }
 
 bool kiln_skin_check(const char *name, const struct kiln_mesh_result *result,

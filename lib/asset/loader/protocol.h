@@ -69,6 +69,7 @@ struct kiln_decode_request {
     uint32_t format; /* enum kiln_picture_format or kiln_mesh_format; unused for a video */
     uint32_t uvs;    /* of a mesh: texture coordinates are wanted */
     uint32_t moving; /* of a mesh: nodes, bones and clips are wanted */
+    uint32_t rig;    /* of a mesh: nodes, cameras and clips are wanted, and no vertices */
     /* of a mesh: materials are wanted; texture coordinates then come with them */
     uint32_t materials;
     uint32_t raw; /* of a picture: numbers are neither converted nor turned */
@@ -122,7 +123,7 @@ struct kiln_decode_answer {
     uint32_t width, height, channels, type, srgb, premultiplied, pages;
     uint32_t data;                                         /* of a layer: it holds no light */
     uint32_t vertices, triangles;                          /* of a mesh: counts */
-    uint32_t nodes, bones, clips, channels_of_clips, keys; /* of a mesh that moves: counts */
+    uint32_t nodes, bones, clips, channels_of_clips, keys; /* of a mesh that moves, or a rig */
     uint32_t morphs, morph_channels, deltas;               /* of the same */
     uint32_t materials, textures, texture_bytes;           /* of a mesh with materials: counts */
     uint32_t has_uvs, has_second_uvs, has_colors; /* of the same: which its vertices have */

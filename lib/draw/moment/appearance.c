@@ -4,6 +4,7 @@
 
 #include <assert.h>
 
+#include "scene/family.h"
 #include "shared/derived.h"
 #include "shared/exact.h"
 #include "shared/look_layout.h"
@@ -35,7 +36,8 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
                                                      uint32_t index)
 {
     const struct kiln_pool_system *slots = &moment->pool->systems[index];
-    return (struct kiln_appearance_system){
+    const struct kiln_parent *parent = &moment->scene->systems[index].emit.parent;
+    struct kiln_appearance_system system = {
         .derived = kiln_scene_derived(moment->scene, index),
         .keys = moment->scene->keys,
         .records = moment->records + slots->base,
@@ -50,6 +52,12 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
         .dt_s = moment->scene->dt_s,
         .spins = moment->spins && slots->spins ? moment->spins + slots->first_spin : NULL,
     };
+    if (kiln_family_inherits(&moment->scene->systems[index])) {
+        system.of_parent = kiln_scene_derived(moment->scene, parent->system);
+        system.parents = moment->records + moment->pool->systems[parent->system].base;
+        system.slots_of_parent = parent->slots;
+    }
+    return system;
 }
 
 struct value_clocks kiln_appearance_clocks(const struct kiln_appearance_system *system,
@@ -65,6 +73,9 @@ struct value_clocks kiln_appearance_clocks(const struct kiln_appearance_system *
     clocks.distance = float3_length(float3_sub(position, system->eye));
     clocks.velocity = particle_velocity(record);
     clocks.stream = particle_stream(system->derived, record);
+    if (system->parents)
+        clocks = particle_clocks_of_child(system->keys, clocks, system->of_parent,
+                                          system->parents[slot / system->slots_of_parent], record);
     return clocks;
 }
 
@@ -92,11 +103,12 @@ bool kiln_appearance_at(const struct kiln_appearance_system *system, uint32_t sl
 }
 
 /* Returns the angle of a particle from its own rotation and spin, without collisions, rad. */
-static float spin_angle(const struct kiln_appearance_system *system,
+static float spin_angle(const struct kiln_appearance_system *system, uint32_t slot,
                         const struct value_clocks *clocks)
 {
+    const float turned_s = particle_turned_s(system->records[slot], clocks->age_s, system->dt_s);
     return instance_angle(clocks->stream, kiln_appearance_look(system, KILN_LOOK_TURN, clocks),
-                          kiln_appearance_look(system, KILN_LOOK_SPREAD, clocks), clocks->age_s);
+                          kiln_appearance_look(system, KILN_LOOK_SPREAD, clocks), turned_s);
 }
 
 float4 kiln_appearance_pose(const struct kiln_appearance_system *system, uint32_t slot,
@@ -104,7 +116,7 @@ float4 kiln_appearance_pose(const struct kiln_appearance_system *system, uint32_
 {
     if (system->spins)
         return spin_unit(spin_pose(system->spins[slot].pose));
-    return instance_pose(clocks->stream, spin_angle(system, clocks));
+    return instance_pose(clocks->stream, spin_angle(system, slot, clocks));
 }
 
 struct instance_axes kiln_appearance_axes(const struct kiln_appearance_system *system,
@@ -114,7 +126,7 @@ struct instance_axes kiln_appearance_axes(const struct kiln_appearance_system *s
     if (system->spins && orient == ORIENT_SPIN)
         return instance_posed(kiln_appearance_pose(system, slot, clocks));
     return instance_axes_of(orient, particle_velocity(system->records[slot]),
-                            spin_angle(system, clocks), clocks->stream);
+                            spin_angle(system, slot, clocks), clocks->stream);
 }
 
 float3 kiln_appearance_glow(const struct kiln_appearance_system *system,

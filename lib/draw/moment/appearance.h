@@ -22,6 +22,11 @@ struct kiln_appearance_system {
     float back;                    /* from the moment to the end of these steps, in steps */
     float dt_s;                    /* duration of a step, s */
     const struct kiln_spin *spins; /* by slot; NULL: collisions do not turn the particles */
+    /* if the look inherits values of the parent's: parameters and records of the parent's system,
+     * and the slots of one parent's children; else 0 */
+    struct kiln_derived_params of_parent;
+    const struct kiln_particle *parents;
+    uint32_t slots_of_parent;
 };
 
 /* Describes a living particle at the moment's time. */

@@ -89,6 +89,8 @@ struct own_value {
     unsigned count;
     struct place place;
     bool is_mean;
+    bool is_source; /* it is the colour of what the particle was born on */
+    bool of_parent; /* it is a value of the parent's look, at the particle's birth */
 };
 
 struct own_values {
@@ -102,59 +104,101 @@ static void add_own(struct own_values *own, struct own_value value)
         own->values[own->count++] = value;
 }
 
-/* Adds a vector: as a whole, or each of its components that has a clock of its own. */
+/* Adds a vector: as a whole, or each of its components that has a clock of its own, or all of them
+ * if it is the parent's. */
 static void add_vector(struct own_values *own, const float4 *keys, const struct kiln_value3 *v,
-                       struct place place)
+                       struct place place, bool of_parent)
 {
     const struct kiln_value *parts[3] = {&v->x, &v->y, &v->z};
     const bool whole = kiln_value3_is_whole(keys, v);
-    if (whole && kiln_look_value_is_own(keys, &v->x)) {
-        add_own(own, (struct own_value){{parts[0], parts[1], parts[2]}, 3, place, false});
+    if (whole && (of_parent || kiln_look_value_is_own(keys, &v->x))) {
+        add_own(own, (struct own_value){{parts[0], parts[1], parts[2]},
+                                        .count = 3,
+                                        .place = place,
+                                        .of_parent = of_parent});
         return;
     }
     for (unsigned c = 0; c < 3 && !whole; c++) {
         place.lanes = 1u << c;
-        if (kiln_look_value_is_own(keys, parts[c]))
-            add_own(own, (struct own_value){{parts[c]}, 1, place, false});
+        if (of_parent || kiln_look_value_is_own(keys, parts[c]))
+            add_own(own, (struct own_value){
+                             {parts[c]}, .count = 1, .place = place, .of_parent = of_parent});
     }
 }
 
-static void find_own(const struct kiln_scene *scene, const struct kiln_look *look,
-                     struct own_values *own)
+struct kiln_inherited kiln_look_inherited(const struct kiln_scene *scene, uint32_t index)
 {
-    const bool additive = look->blend == KILN_BLEND_ADD;
+    const struct kiln_parent *parent = &scene->systems[index].emit.parent;
+    return parent->enabled ? parent->look : (struct kiln_inherited){false, false, false};
+}
+
+/* Returns whether a value at a place of struct kiln_look is among those that are inherited. */
+static bool is_inherited(struct kiln_inherited inherited, size_t at)
+{
+    return (inherited.size && at == offsetof(struct kiln_look, size)) ||
+           (inherited.temperature && at == offsetof(struct kiln_look, temperature)) ||
+           (inherited.color && at == offsetof(struct kiln_look, color));
+}
+
+static void find_own(const struct kiln_scene *scene, uint32_t index, struct own_values *own)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    const struct kiln_inherited inherited = kiln_look_inherited(scene, index);
+    const char *look = (const char *)&system->look;
+    const char *of_parent = (const char *)&scene->systems[system->emit.parent.system].look;
+    const bool additive = system->look.blend == KILN_BLEND_ADD;
     own->count = 0;
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
+        const bool has = is_inherited(inherited, scalars[i].at);
         const struct kiln_value *value =
-            (const struct kiln_value *)((const char *)look + scalars[i].at);
-        if (kiln_look_value_is_own(scene->keys, value))
-            add_own(own, (struct own_value){{value}, 1, scalars[i].place, scalars[i].is_mean});
+            (const struct kiln_value *)((has ? of_parent : look) + scalars[i].at);
+        if (has || kiln_look_value_is_own(scene->keys, value))
+            add_own(own, (struct own_value){{value},
+                                            .count = 1,
+                                            .place = scalars[i].place,
+                                            .is_mean = scalars[i].is_mean,
+                                            .of_parent = has});
     }
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        const bool has = is_inherited(inherited, vectors[i].at);
         const struct kiln_value3 *vector =
-            (const struct kiln_value3 *)((const char *)look + vectors[i].at);
-        if (vectors[i].place.of == OF_ANY || (vectors[i].place.of == OF_FIRE) == additive)
-            add_vector(own, scene->keys, vector, vectors[i].place);
+            (const struct kiln_value3 *)((has ? of_parent : look) + vectors[i].at);
+        if (vectors[i].place.of != OF_ANY && (vectors[i].place.of == OF_FIRE) != additive)
+            continue;
+        if (vectors[i].at == offsetof(struct kiln_look, color) && kiln_color_is_source(vector))
+            add_own(own, (struct own_value){{&vector->x, &vector->y, &vector->z},
+                                            .count = 3,
+                                            .place = vectors[i].place,
+                                            .is_source = true,
+                                            .of_parent = has});
+        else
+            add_vector(own, scene->keys, vector, vectors[i].place, has);
     }
 }
 
-/* Replaces a value over another clock than life by 1. */
-static void replace_own(const float4 *keys, void *look, size_t at)
+/* Replaces a value by 1 that is inherited, or varies over another clock than life. */
+static void replace_own(const float4 *keys, void *look, size_t at, bool inherited)
 {
     struct kiln_value *value = (struct kiln_value *)((char *)look + at);
-    if (kiln_look_value_is_own(keys, value))
+    if (inherited || kiln_look_value_is_own(keys, value))
         *value = (struct kiln_value){.constant = 1.0f};
 }
 
-struct kiln_look kiln_look_over_life(const float4 *keys, const struct kiln_look *look)
+struct kiln_look kiln_look_over_life(const struct kiln_scene *scene, uint32_t index)
 {
-    struct kiln_look over_life = *look;
+    const float4 *keys = scene->keys;
+    const struct kiln_inherited inherited = kiln_look_inherited(scene, index);
+    const struct kiln_value one = {.constant = 1.0f};
+    struct kiln_look over_life = scene->systems[index].look;
+    if (kiln_color_is_source(&over_life.color))
+        over_life.color = (struct kiln_value3){one, one, one};
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
-        replace_own(keys, &over_life, scalars[i].at);
+        replace_own(keys, &over_life, scalars[i].at, is_inherited(inherited, scalars[i].at));
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, x));
-        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, y));
-        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, z));
+        const bool has = is_inherited(inherited, vectors[i].at);
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, x), has);
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, y), has);
+        replace_own(keys, &over_life, vectors[i].at + offsetof(struct kiln_value3, z), has);
     }
     return over_life;
 }
@@ -208,8 +252,31 @@ static void add_light(struct kiln_look_value *value, uint32_t row)
                              : 0.0f;
 }
 
-static void make_program(const struct kiln_scene *scene, const struct own_values *own,
-                         uint32_t *rows, struct kiln_look_program *program)
+/* Makes the value that is the colour of the source of a system or of its parent, which may lack one
+ * if it is not enabled. */
+static struct kiln_look_value make_source_value(const struct kiln_scene *scene, uint32_t index,
+                                                const struct own_value *from)
+{
+    const struct kiln_emitter *emit = &scene->systems[index].emit;
+    if (from->of_parent)
+        emit = &scene->systems[emit->parent.system].emit;
+    const struct kiln_source *source = emit->source.made;
+    return (struct kiln_look_value){
+        .target = from->place.target,
+        .lanes = from->place.lanes,
+        .parts = 1,
+        .part = {{.clock = LOOK_CLOCK_SOURCE,
+                  .row = source ? source->first_texel : 0,
+                  .flags = from->of_parent ? LOOK_PART_PARENT : 0,
+                  .octaves = source ? source->cells : 0,
+                  .source = source}},
+        .high = 1.0f,
+    };
+}
+
+static void make_program(const struct kiln_scene *scene, uint32_t index,
+                         const struct own_values *own, uint32_t *rows,
+                         struct kiln_look_program *program)
 {
     *program = (struct kiln_look_program){.count = own->count, .row = *rows};
     *rows += own->count > 0 ? LOOK_PROGRAM_ROWS : 0;
@@ -217,6 +284,10 @@ static void make_program(const struct kiln_scene *scene, const struct own_values
         const struct own_value *from = &own->values[i];
         const struct kiln_value *first = from->components[0];
         struct kiln_look_value *value = &program->values[i];
+        if (from->is_source) {
+            *value = make_source_value(scene, index, from);
+            continue;
+        }
         *value = (struct kiln_look_value){.target = from->place.target,
                                           .lanes = from->place.lanes,
                                           .low = kiln_value_least(scene->keys, first),
@@ -231,6 +302,8 @@ static void make_program(const struct kiln_scene *scene, const struct own_values
             value->parts |= 1u << part;
             value->part[part] =
                 make_part(scene->keys, value_part(scene->keys, *first, part), (*rows)++);
+            if (from->of_parent && value->part[part].clock != KILN_CLOCK_CONSTANT)
+                value->part[part].flags |= LOOK_PART_PARENT;
         }
         if (from->place.light != PLAIN)
             add_light(value, (*rows)++);
@@ -248,8 +321,8 @@ uint32_t kiln_look_rows(const struct kiln_scene *scene)
     struct kiln_look_program program;
     uint32_t rows = base_rows(scene);
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        find_own(scene, &scene->systems[i].look, &own);
-        make_program(scene, &own, &rows, &program);
+        find_own(scene, i, &own);
+        make_program(scene, i, &own, &rows, &program);
     }
     return rows;
 }
@@ -261,8 +334,8 @@ void kiln_look_programs_fill(const struct kiln_scene *scene,
     uint32_t rows = base_rows(scene);
     memset(programs, 0, KILN_MAX_SYSTEMS * sizeof *programs);
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        find_own(scene, &scene->systems[i].look, &own);
-        make_program(scene, &own, &rows, &programs[i]);
+        find_own(scene, i, &own);
+        make_program(scene, i, &own, &rows, &programs[i]);
     }
 }
 
@@ -368,14 +441,14 @@ void kiln_look_programs_sample(const struct kiln_scene *scene,
         const struct value_clocks clocks = kiln_scene_clocks(scene, i, time_s);
         if (program->count == 0)
             continue;
-        find_own(scene, look, &own);
+        find_own(scene, i, &own);
         write_program(table, program);
         for (uint32_t v = 0; v < program->count; v++) {
             const struct kiln_look_value *value = &program->values[v];
             for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
                 for (uint32_t p = 0; p < VALUE_ENTRIES; p++) {
                     const struct kiln_look_part *part = &value->part[p];
-                    if (value->parts & 1u << p)
+                    if ((value->parts & 1u << p) && part->clock != LOOK_CLOCK_SOURCE)
                         *texel_at(table, part->row, k) =
                             part_texel(scene->keys, &own.values[v], p, part, &clocks, k);
                 }
@@ -408,11 +481,12 @@ static float4 row_at(const float4 *table, uint32_t row, float place)
 /* Returns what a part's clock shows. */
 static float clock_of(const struct kiln_look_part *part, const struct value_clocks *clocks)
 {
+    const bool parent = (part->flags & LOOK_PART_PARENT) != 0;
     switch (part->clock) {
     case KILN_CLOCK_LIFE:
-        return clocks->life;
+        return parent ? clocks->parent_life : clocks->life;
     case KILN_CLOCK_AGE:
-        return clocks->age_s;
+        return parent ? clocks->parent_age_s : clocks->age_s;
     case KILN_CLOCK_SPEED:
         return float3_length(clocks->velocity);
     case KILN_CLOCK_HEIGHT:
@@ -420,7 +494,7 @@ static float clock_of(const struct kiln_look_part *part, const struct value_cloc
     case KILN_CLOCK_DISTANCE:
         return clocks->distance;
     case KILN_CLOCK_RANDOM:
-        return random_unit(clocks->stream, part->draw);
+        return random_unit(parent ? clocks->parent_stream : clocks->stream, part->draw);
     case KILN_CLOCK_NOISE:
         return value_noise_at((struct value_noise){random_bits(clocks->stream, part->draw),
                                                    part->octaves,
@@ -443,6 +517,12 @@ static float repeat(const struct kiln_look_part *part, float x)
 float4 kiln_look_part_at(const float4 *table, const struct kiln_look_part *part,
                          const struct value_clocks *clocks)
 {
+    if (part->clock == LOOK_CLOCK_SOURCE) {
+        const bool of_parent = (part->flags & LOOK_PART_PARENT) != 0;
+        const float3 color =
+            kiln_source_color(part->source, of_parent ? clocks->parent_stream : clocks->stream);
+        return (float4){color.x, color.y, color.z, color.x};
+    }
     float x = clock_of(part, clocks);
     if (part->flags & (LOOK_PART_LOOPS | LOOK_PART_MIRRORS))
         x = repeat(part, x);

@@ -1,11 +1,13 @@
 /* This header declares the values of looks that the table of looks cannot have by a particle's life
  * alone: those over another clock, such as random numbers or the speed. The table has 1 in their
- * places. Each of them becomes a few rows of samples over its own clock, which lie behind the rows
- * of all systems, and a factor that is made of these rows for each particle. */
+ * places, and in those of values that are inherited from a parent. Each of them becomes a few rows
+ * of samples over its own clock, which lie behind the rows of all systems, and a factor that is
+ * made of these rows for each particle. */
 #ifndef KILN_DRAW_MOMENT_LOOK_VALUES_H
 #define KILN_DRAW_MOMENT_LOOK_VALUES_H
 
 #include "scene/scene.h"
+#include "scene/source.h"
 #include "shared/look_layout.h"
 
 /* The most values of a system, which is as many as there are in the table's rows. */
@@ -22,6 +24,7 @@ struct kiln_look_part {
     float span;        /* of a repetition */
     float period_s;    /* of a noise */
     uint32_t octaves;
+    const struct kiln_source *source; /* with LOOK_CLOCK_SOURCE */
 };
 
 struct kiln_look_value {
@@ -44,8 +47,12 @@ struct kiln_look_program {
 /* Returns whether a value has a clock that the table does not have. */
 bool kiln_look_value_is_own(const float4 *keys, const struct kiln_value *value);
 
-/* Returns a look in which values over other clocks than the time and a particle's life are 1. */
-struct kiln_look kiln_look_over_life(const float4 *keys, const struct kiln_look *look);
+/* Returns what a system inherits of its parent's look. */
+struct kiln_inherited kiln_look_inherited(const struct kiln_scene *scene, uint32_t index);
+
+/* Returns the look of a system, in which values are 1 that are inherited, or vary over other clocks
+ * than the time and a particle's life. */
+struct kiln_look kiln_look_over_life(const struct kiln_scene *scene, uint32_t index);
 
 /* Returns how many rows the table of a scene has: those of all systems, and those of values. */
 uint32_t kiln_look_rows(const struct kiln_scene *scene);

@@ -7,9 +7,11 @@
 #include <string.h>
 
 #include "asset/atlas/blackbody.h"
+#include "scene/family.h"
 #include "scene/look_defaults.h"
 #include "shared/exact.h"
 
+static_assert(KILN_MAX_PARTICLES <= 0x3ffffff && KILN_MAX_SYSTEMS <= 64, "LOOK_PARENT_SLOTS");
 static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
                   LOOK_MESH == KILN_SHAPE_MESH,
               "shapes");
@@ -132,11 +134,12 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
     for (uint32_t i = 0; i < scene->system_count; i++) {
         float4 *rows = table + (size_t)i * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
         const struct kiln_look *whole = &scene->systems[i].look;
-        const struct kiln_look look = kiln_look_over_life(scene->keys, whole);
+        const struct kiln_look look = kiln_look_over_life(scene, i);
         struct sampler sampler = {
             .scene = scene,
             .observer = &observer,
-            .own_temperature = kiln_look_value_is_own(scene->keys, &whole->temperature),
+            .own_temperature = kiln_look_value_is_own(scene->keys, &whole->temperature) ||
+                               kiln_look_inherited(scene, i).temperature,
             .clocks = kiln_scene_clocks(scene, i, time_s),
         };
         for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
@@ -194,13 +197,14 @@ bool kiln_looks_patterned(const struct kiln_scene *scene)
 }
 
 /* Returns the number that is added, modulo 2^32, to a slot of the system in the pool to get the
- * index of the slot's spin. */
+ * index of the slot's spin. Spins and ways lie in the order of the pool (particles/pool.c). */
 static uint32_t spins_before(const struct kiln_scene *scene, uint32_t index)
 {
     uint32_t slots = 0, spins = 0;
     for (uint32_t i = 0; i < index; i++) {
         slots += scene->systems[i].capacity;
         spins += kiln_scene_system_spins(scene, i) ? scene->systems[i].capacity : 0;
+        spins += kiln_family_travels(scene, i) ? scene->systems[i].capacity : 0;
     }
     return spins - slots;
 }
@@ -230,6 +234,20 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
     return made;
 }
 
+/* Returns `values` of a look but for its first word: where the records of its parents are. */
+static uint4 parents_of(const struct kiln_scene *scene, uint32_t index)
+{
+    const struct kiln_parent *parent = &scene->systems[index].emit.parent;
+    uint4 values = {0};
+    if (!kiln_family_inherits(&scene->systems[index]))
+        return values;
+    for (uint32_t i = 0; i < parent->system; i++)
+        values.y += scene->systems[i].capacity;
+    values.z = scene->systems[parent->system].capacity;
+    values.w = parent->slots | parent->system << 26;
+    return values;
+}
+
 void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
                      const struct kiln_look_program programs[KILN_MAX_SYSTEMS],
                      struct kiln_draw_look looks[KILN_MAX_SYSTEMS])
@@ -237,6 +255,7 @@ void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *at
     memset(looks, 0, KILN_MAX_SYSTEMS * sizeof *looks);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         looks[i] = make_look(scene, i, &atlas->systems[i]);
+        looks[i].values = parents_of(scene, i);
         looks[i].values.x = programs[i].count > 0 ? programs[i].row : 0;
     }
 }

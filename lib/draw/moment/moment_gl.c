@@ -10,6 +10,9 @@
 #include "base/error.h"
 #include "gpu/buffer.h"
 #include "option/value_curve.h"
+#include "scene/family.h"
+#include "scene/source.h"
+#include "shared/source.h"
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_look) == 112 + 16 * KILN_MAX_TEXTURES, "std140");
@@ -18,6 +21,7 @@ static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of eve
 struct kiln_moment_gl {
     struct kiln_device *device;
     struct kiln_buffer looks, keys;
+    GLuint sources;            /* texture of the colours of sources; 0: there are none */
     GLuint look_table;         /* texture, KILN_LOOK_SAMPLES wide; 0: nothing is made yet */
     uint64_t uploaded_changes; /* the moment's look_changes when the texture was uploaded */
 };
@@ -32,6 +36,13 @@ void kiln_moment_gl_defines(const struct kiln_scene *scene, struct kiln_text *de
         kiln_text_add(defines, "#define USES_CLOCKS %uu\n", clocks);
     if (kiln_look_rows(scene) > base_rows)
         kiln_text_add(defines, "#define LOOK_VALUES 1\n");
+    if (kiln_sources_texels(scene) > 0)
+        kiln_text_add(defines, "#define LOOK_SOURCES 1\n");
+    bool inherits = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        inherits = inherits || kiln_family_inherits(&scene->systems[i]);
+    if (inherits)
+        kiln_text_add(defines, "#define LOOK_PARENTS 1\n");
 }
 
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)
@@ -50,6 +61,8 @@ void kiln_moment_gl_destroy(struct kiln_moment_gl **gl)
         kiln_buffer_finish(&(*gl)->looks);
         kiln_buffer_finish(&(*gl)->keys);
         glDeleteTextures(1, &(*gl)->look_table);
+        if ((*gl)->sources)
+            glDeleteTextures(1, &(*gl)->sources);
     }
     free(*gl);
     *gl = NULL;
@@ -133,6 +146,35 @@ static GLsizei count_rows(const struct kiln_moment *moment)
     return (GLsizei)moment->look_rows;
 }
 
+/* Uploads the texels of all sources, one system after another, in rows of SOURCE_ROW. */
+static bool make_sources(const struct kiln_moment *moment, struct kiln_error *error)
+{
+    struct kiln_moment_gl *gl = moment->gl;
+    const size_t count = kiln_sources_texels(moment->scene);
+    const size_t rows = (count + SOURCE_ROW - 1) / SOURCE_ROW;
+    if (count == 0)
+        return true;
+    uint4 *texels = calloc(rows * SOURCE_ROW, sizeof *texels), *next = texels;
+    if (!texels)
+        return kiln_error_no_memory(error, "the colours of sources");
+    for (uint32_t i = 0; i < moment->scene->system_count; i++) {
+        const struct kiln_source *source = moment->scene->systems[i].emit.source.made;
+        if (!source || source->texel_count == 0)
+            continue;
+        memcpy(next, source->texels, source->texel_count * sizeof *next);
+        next += source->texel_count;
+    }
+    glGenTextures(1, &gl->sources);
+    glBindTexture(GL_TEXTURE_2D, gl->sources);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32UI, SOURCE_ROW, (GLsizei)rows, 0, GL_RGBA_INTEGER,
+                 GL_UNSIGNED_INT, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    kiln_device_label(gl->device, GL_TEXTURE, gl->sources, "colours of sources");
+    free(texels);
+    return true;
+}
+
 static bool make(const struct kiln_moment *moment, struct kiln_error *error)
 {
     struct kiln_moment_gl *gl = moment->gl;
@@ -143,12 +185,17 @@ static bool make(const struct kiln_moment *moment, struct kiln_error *error)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     kiln_device_label(gl->device, GL_TEXTURE, gl->look_table, "look table");
-    return make_buffers(moment, error) && kiln_device_check(gl->device, "looks", error);
+    return make_sources(moment, error) && make_buffers(moment, error) &&
+           kiln_device_check(gl->device, "looks", error);
 }
 
 static void bind_look_table(const struct kiln_moment *moment)
 {
     struct kiln_moment_gl *gl = moment->gl;
+    if (gl->sources) {
+        glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SOURCES);
+        glBindTexture(GL_TEXTURE_2D, gl->sources);
+    }
     glActiveTexture(GL_TEXTURE0 + KILN_UNIT_LOOK_TABLE);
     glBindTexture(GL_TEXTURE_2D, gl->look_table);
     if (gl->uploaded_changes == moment->look_changes)

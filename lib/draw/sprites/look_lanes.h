@@ -12,6 +12,8 @@ struct clock_lanes {
     struct vf3 velocity;
     vu stream;
     float time_s;
+    vf parent_life, parent_age_s; /* as in struct value_clocks; 0 if the look inherits nothing */
+    vu parent_stream;
 };
 
 /* Returns the clocks of one lane. */
@@ -24,6 +26,9 @@ SIMD struct value_clocks clocks_of_lane(const struct clock_lanes *c, int lane)
     clocks.distance = c->distance[lane];
     clocks.velocity = (float3){c->velocity.x[lane], c->velocity.y[lane], c->velocity.z[lane]};
     clocks.stream = c->stream[lane];
+    clocks.parent_life = c->parent_life[lane];
+    clocks.parent_age_s = c->parent_age_s[lane];
+    clocks.parent_stream = c->parent_stream[lane];
     return clocks;
 }
 
@@ -45,12 +50,13 @@ SIMD struct columns part_of_lanes(const float4 *table, const struct kiln_look_pa
 {
     const bool known = part->clock == KILN_CLOCK_RANDOM || part->clock == KILN_CLOCK_LIFE ||
                        part->clock == KILN_CLOCK_CONSTANT;
-    if (known && part->flags == 0) {
+    if (known && (part->flags & ~LOOK_PART_PARENT) == 0) {
+        const bool parent = part->flags != 0;
         vf x = vf_all(part->from);
         if (part->clock == KILN_CLOCK_RANDOM)
-            x = vu_unit(c->stream, part->draw);
+            x = vu_unit(parent ? c->parent_stream : c->stream, part->draw);
         else if (part->clock == KILN_CLOCK_LIFE)
-            x = c->life;
+            x = parent ? c->parent_life : c->life;
         return row_of_lanes(table, part->row, (x - part->from) * part->per_x);
     }
     struct columns y;

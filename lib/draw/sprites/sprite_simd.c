@@ -40,7 +40,8 @@ static void turn_billboards(struct sprite_lanes *p)
     vf angle = vf_lerp(p->turn.c[0], p->turn.c[1], vu_unit(p->stream, RANDOM_ROTATION));
     vf spin = vf_lerp(p->spread.c[2], p->spread.c[3], vu_unit(p->stream, RANDOM_SPIN));
     vf side = billboard_side(vu_unit(p->stream, RANDOM_SPIN + 1u));
-    const struct vf_angle rotation = vf_sincos(angle + spin * side * p->age_s);
+    const vf turned_s = vf_turned(&p->record, p->age_s, p->pass->view->clock.y);
+    const struct vf_angle rotation = vf_sincos(angle + spin * side * turned_s);
     struct billboard_edge edge = {-rotation.sine, rotation.cosine, p->half_size};
     if (some_stretch(p)) {
         struct vf3 moving = to_view(p->pass->view, p->record.velocity);
@@ -152,6 +153,24 @@ static void color_sprites(struct sprite_lanes *p)
 
 /* ---- from particle to sprite ----------------------------------------------------------------- */
 
+/* Finds the clocks of the parents of particles whose look inherits values. */
+static void read_parents(struct sprite_lanes *p)
+{
+    const struct kiln_sprite_pass *pass = p->pass;
+    const uint4 values = p->look->values;
+    const struct kiln_derived_params derived = pass->looks[LOOK_PARENT_SYSTEM(values.w)].derived;
+    for (int i = 0; i < LANES; i++) {
+        const struct kiln_particle child = pass->records[p->slots[i]];
+        const struct kiln_particle parent =
+            pass->records[LOOK_PARENT_RECORD(values, child.position_serial.w)];
+        const struct value_clocks clocks = particle_clocks_of_child(
+            pass->scene->keys, value_clocks_at(0, 0, 0), derived, parent, child);
+        p->clocks.parent_life[i] = clocks.parent_life;
+        p->clocks.parent_age_s[i] = clocks.parent_age_s;
+        p->clocks.parent_stream[i] = clocks.parent_stream;
+    }
+}
+
 static void read_clocks(struct sprite_lanes *p)
 {
     p->clocks = (struct clock_lanes){
@@ -163,6 +182,8 @@ static void read_clocks(struct sprite_lanes *p)
         .stream = p->stream,
         .time_s = p->pass->view->clock.x,
     };
+    if (LOOK_PARENT_SLOTS(p->look->values.w) != 0)
+        read_parents(p);
 }
 
 static void read_particles(struct sprite_lanes *p)

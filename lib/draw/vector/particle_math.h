@@ -53,6 +53,8 @@ SIMD vf vu_unit(vu stream, uint32_t purpose)
 struct vf_particles {
     struct vf3 position, velocity;
     vu serial, birth;
+    vi stopped; /* a mask of particles that have stopped */
+    vu rest;    /* of these, the time at which they did: the first word of their rest */
 };
 
 /* Reads the particles in slots of a pool's records. */
@@ -63,10 +65,18 @@ SIMD struct vf_particles read_records(const struct kiln_particle *records, vi sl
     const float *from = (const float *)(const void *)records;
     const struct columns first = columns_load(from, &places),
                          second = columns_load(from + 4, &places);
-    return (struct vf_particles){{first.c[0], first.c[1], first.c[2]},
-                                 {second.c[0], second.c[1], second.c[2]},
-                                 (vu)first.c[3],
-                                 (vu)second.c[3]};
+    const vu birth = (vu)second.c[3];
+    const vi stopped = (vi)(birth & KILN_PARTICLE_STOPPED) != 0;
+    struct vf3 velocity = {second.c[0], second.c[1], second.c[2]};
+    if (any(stopped))
+        velocity = (struct vf3){vf_where(~stopped, velocity.x), vf_where(~stopped, velocity.y),
+                                vf_where(~stopped, velocity.z)};
+    return (struct vf_particles){.position = {first.c[0], first.c[1], first.c[2]},
+                                 .velocity = velocity,
+                                 .serial = (vu)first.c[3],
+                                 .birth = birth,
+                                 .stopped = stopped,
+                                 .rest = (vu)second.c[0]};
 }
 
 SIMD vf vf_birth_fraction(vu birth)
@@ -79,6 +89,18 @@ SIMD vf vf_age(vu birth, uint32_t step, float back, float dt_s)
 {
     vf steps = vf_of((vi)(step - (birth >> KILN_BIRTH_STEP_SHIFT))) + 1.0f;
     return (steps - vf_birth_fraction(birth) - back) * dt_s;
+}
+
+/* Returns for how long particles have turned by themselves, as particle_turned_s does. */
+SIMD vf vf_turned(const struct vf_particles *p, vf age_s, float dt_s)
+{
+    if (!any(p->stopped))
+        return age_s;
+    const vf whole =
+        vf_of((vi)((p->rest >> KILN_REST_STEP_SHIFT) - (p->birth >> KILN_BIRTH_STEP_SHIFT)));
+    const vf part = vf_of((vi)(p->rest & KILN_BIRTH_FRACTION_MASK)) * 0.015625f;
+    const vf stopped_s = (whole + part - vf_birth_fraction(p->birth)) * dt_s;
+    return vf_select(p->stopped, vf_min(stopped_s, age_s), age_s);
 }
 
 /* Returns a value that particles get at their births. Most values are constant, so others are

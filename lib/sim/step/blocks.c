@@ -188,7 +188,8 @@ static void add_defines(struct kiln_text *defines, const struct kiln_device *dev
                         bool families)
 {
     const uint colliders = kiln_sim_colliders_used(scene);
-    const bool grids = params->grids->count > 0, pushes = params->push_count > 0;
+    const bool grids = params->grids->count > 0 || params->grids->has_sources,
+               pushes = params->push_count > 0;
     const bool forces = kiln_sim_needs_all_forces(scene);
     kiln_text_add(defines, "#define SIM_GROUP_SIZE %u\n", group_size(device));
     add_define(defines, "COLLIDE_RUB", has_rubbing(params));
@@ -198,6 +199,7 @@ static void add_defines(struct kiln_text *defines, const struct kiln_device *dev
     add_define(defines, "COLLIDE_FIELD", (colliders & KINDS_FIELD) != 0);
     add_define(defines, "COLLIDE_VOLUME", (colliders & 1u << COLLIDER_VOLUME) != 0);
     add_define(defines, "COLLIDE_DEPTH", (colliders & 1u << COLLIDER_DEPTH) != 0);
+    add_define(defines, "SOURCES", params->grids->has_sources);
     add_define(defines, "PUSHES", pushes);
     add_define(defines, "SPINS", params->spin_count > 0);
     add_define(defines, "FORCES_ALL", forces);

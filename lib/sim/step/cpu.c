@@ -16,15 +16,16 @@ bool kiln_sim_cpu_step(kiln_slots_step *step_slots, struct kiln_threads *threads
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, error);
     struct kiln_trace *scratch =
         params->trace_count ? kiln_buffer_host(traces, KILN_READ_WRITE, error) : NULL;
+    const bool has_words = params->grids->words.size > 0;
     const float4 *words =
-        params->grids->count ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
+        has_words ? kiln_buffer_host(&params->grids->words, KILN_READ, error) : NULL;
     const float4 *planes = params->grids->volumes.count
                                ? kiln_buffer_host(&params->grids->volumes.words, KILN_READ, error)
                                : NULL;
     const float4 *pushed = params->push_count ? kiln_buffer_host(pushes, KILN_READ, error) : NULL;
     uint4 *spins =
         params->spin_count ? kiln_buffer_host(&pool->spins, KILN_READ_WRITE, error) : NULL;
-    if (!records || (params->trace_count && !scratch) || (params->grids->count && !words) ||
+    if (!records || (params->trace_count && !scratch) || (has_words && !words) ||
         (params->grids->volumes.count && !planes) || (params->push_count && !pushed) ||
         (params->spin_count && !spins))
         return false;
@@ -49,6 +50,7 @@ bool kiln_sim_cpu_step(kiln_slots_step *step_slots, struct kiln_threads *threads
 struct hash_work {
     const struct kiln_particle *records; /* records of the system */
     const struct kiln_spin *spins;       /* spins of the system; NULL: its particles do not spin */
+    const struct kiln_spin *ways;        /* ways of the system; NULL: its particles have none */
     uint32_t system;
     atomic_uint a, b, alive; /* sums of integers, in which the order of threads changes no bit */
 };
@@ -65,6 +67,12 @@ static void hash_slots(void *context, size_t begin, size_t end, uint32_t worker)
                 state_hash_spin(work->system, work->records[slot], work->spins[slot]);
             lanes.a += turning.a;
             lanes.b += turning.b;
+        }
+        if (work->ways) {
+            const struct state_hash_lanes travelled =
+                state_hash_spin(work->system, work->records[slot], work->ways[slot]);
+            lanes.a += travelled.a;
+            lanes.b += travelled.b;
         }
         a += lanes.a;
         b += lanes.b;
@@ -92,6 +100,7 @@ bool kiln_sim_cpu_hash(struct kiln_threads *threads, struct kiln_pool *pool,
         const struct kiln_pool_system *system = &pool->systems[i];
         work.records = records + system->base;
         work.spins = spins && system->spins ? spins + system->first_spin : NULL;
+        work.ways = spins && system->travels ? spins + system->first_way : NULL;
         work.system = i;
         kiln_threads_for(threads, kiln_pool_used(system), SLOTS_AT_A_TIME, hash_slots, &work);
     }

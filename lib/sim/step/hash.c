@@ -43,7 +43,8 @@ static void add_system(const struct kiln_sim_hash *hash, const struct kiln_pool 
                          SIM_GROUP_SIZE);
 }
 
-/* Adds the spins of all systems that have them. Their program is made when it is first used. */
+/* Adds the spins and ways of all systems that have them. Their program is made when it is first
+ * used. */
 static bool add_spins(struct kiln_sim_hash *hash, struct kiln_pool *pool, struct kiln_error *error)
 {
     const GLuint spins = kiln_buffer_gl(&pool->spins, KILN_READ, error);
@@ -60,6 +61,9 @@ static bool add_spins(struct kiln_sim_hash *hash, struct kiln_pool *pool, struct
     for (uint32_t i = 0; i < pool->system_count; i++) {
         glUniform1ui(SIM_AT_FIRST_SPIN, pool->systems[i].first_spin);
         if (pool->systems[i].spins)
+            add_system(hash, pool, i);
+        glUniform1ui(SIM_AT_FIRST_SPIN, pool->systems[i].first_way);
+        if (pool->systems[i].travels)
             add_system(hash, pool, i);
     }
     return true;

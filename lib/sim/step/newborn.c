@@ -38,7 +38,7 @@ static struct kiln_births births_after(const struct kiln_scene *scene, uint32_t 
 static uint32_t count_newborn(const struct kiln_births *births)
 {
     uint32_t count = 0;
-    for (uint32_t g = births->of_rate > 0; g < births->group_count; g++)
+    for (uint32_t g = births->steady_groups; g < births->group_count; g++)
         count += births->groups[g].first == 0 ? births->groups[g].count : 0;
     return count;
 }
@@ -113,12 +113,19 @@ bool kiln_newborn_show(struct kiln_newborn *newborn, struct kiln_sim_params *par
     if (!kiln_sim_params_births(params, scene, pool, step + 1, error) ||
         !find_places(&places, pool, error))
         return false;
+    const float4 *words = NULL;
+    if (params->grids->has_sources) {
+        words = kiln_buffer_host(&params->grids->words, KILN_READ, error);
+        if (!words)
+            return false;
+    }
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_sim sim = {.step = &params->systems[i],
                                      .surroundings = &params->surroundings,
-                                     .value_keys = scene->keys};
-        uint32_t index = births[i].of_rate;
-        for (uint32_t g = births[i].of_rate > 0; g < births[i].group_count; g++) {
+                                     .value_keys = scene->keys,
+                                     .grid_words = words};
+        uint32_t index = births[i].steady;
+        for (uint32_t g = births[i].steady_groups; g < births[i].group_count; g++) {
             const struct kiln_birth_group *group = &births[i].groups[g];
             for (uint32_t k = 0; k < group->count && group->first == 0; k++)
                 show_birth(newborn, &sim, &places, i, index + k);

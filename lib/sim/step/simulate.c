@@ -1,7 +1,7 @@
 /* This file runs the simulation stage; the loop over a clip (frame/loop.c) calls it once a step. A
  * step makes the volumes of moving meshes, counts births on the host, computes the forces of
- * particles on each other (pushes), moves the particles by the chosen technique, and lets particles
- * paint the meshes that they hit. */
+ * particles on each other (pushes), writes the grids of baked winds, moves the particles by the
+ * chosen technique, and lets particles paint the meshes that they hit. */
 #include "sim/step/simulate.h"
 
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 #include "shared/trace.h"
 #include "sim/crowd/interact.h"
 #include "sim/paint/paint.h"
+#include "sim/step/bakes.h"
 #include "sim/step/cpu.h"
 #include "sim/step/hash.h"
 #include "sim/step/newborn.h"
@@ -29,6 +30,7 @@ struct kiln_simulate {
     struct kiln_threads *threads;
     struct kiln_sim_params params;
     struct kiln_sim_grids grids;
+    struct kiln_bakes bakes;
     /* struct kiln_trace: what particles did in the present step, for the births of their children
      * and for paint. Each step rewrites it, so it is not part of the state. */
     struct kiln_buffer traces;
@@ -89,7 +91,8 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
     kiln_buffer_init(&simulate->traces, side,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
-    ok = ok && kiln_interact_init(&simulate->interact, side, scene, threads, error) &&
+    ok = ok && kiln_bakes_init(&simulate->bakes, side, scene, &simulate->grids, error) &&
+         kiln_interact_init(&simulate->interact, side, scene, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
     ok = ok &&
          (simulate->row ? init_on_device(simulate, device, error) : choose_loop(simulate, error));
@@ -126,6 +129,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     kiln_paint_finish(&s->paint);
     kiln_interact_finish(&s->interact);
     kiln_buffer_finish(&s->traces);
+    kiln_bakes_finish(&s->bakes);
     kiln_sim_grids_finish(&s->grids);
     free(s);
     *simulate = NULL;
@@ -148,10 +152,12 @@ static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint
     if (!kiln_interact_gather(&s->interact, &s->params, pool, host ? NULL : find_keys(s), error))
         return false;
     if (host)
-        return kiln_sim_cpu_step(s->step_slots, s->threads, &s->params, s->scene->keys, pool,
+        return kiln_bakes_step(&s->bakes, &s->params, s->threads, step, error) &&
+               kiln_sim_cpu_step(s->step_slots, s->threads, &s->params, s->scene->keys, pool,
                                  &s->traces, pushes, error);
     return kiln_sim_blocks_upload(&s->blocks, &s->params, &s->traces, pushes, &pool->spins,
                                   error) &&
+           kiln_bakes_step(&s->bakes, &s->params, s->threads, step, error) &&
            s->row->step(s->technique, &s->blocks, &s->params, pool, step, error);
 }
 

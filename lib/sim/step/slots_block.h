@@ -36,9 +36,11 @@ struct kiln_block {
     struct kiln_floats3 velocity, position; /* at the end of the step */
     struct kiln_floats3 vector, second;     /* options of the present force */
     kiln_floats strength, pulling, braking, scale;
-    struct kiln_floats3 kept_acceleration; /* sum of the forces before one that acts in a region */
+    struct kiln_floats3 kept_acceleration; /* sum of the forces before one that stands apart */
     kiln_floats kept_pull, kept_quadratic;
+    struct kiln_floats3 kept_at; /* places in the world, while a force in a node is evaluated */
     struct kiln_floats3 place, curl;
+    uint32_t sample[KILN_LANES]; /* index of the first sample around a place in a grid */
     struct stages_lanes stages;
     struct kiln_floats3 rate; /* spin of particles that collide as balls */
     kiln_floats pose[4];
@@ -61,6 +63,10 @@ static inline const struct kiln_trace *kiln_slots_parent(const struct kiln_slots
 {
     return &slots->traces[family_parent_trace(&slots->sim, slot)];
 }
+
+/* Fetches the cells that the births of a block will choose into the cache, if they are born on a
+ * mesh or an image. */
+void kiln_slots_fetch(const struct kiln_sim *sim, uint32_t first_slot, const struct kiln_block *b);
 
 /* Finishes the step of lane i, whose block has been stepped: writes the record of `slot`, and its
  * trace if the system leaves traces. before: the record before the step. */

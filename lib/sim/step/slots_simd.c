@@ -4,23 +4,11 @@
  * step_family_slot, which for systems without relations are those of step_slot. Births,
  * particles that may have met a collider, and ends of lives that leave a trace are stepped alone
  * (slots_alone.c). */
+#include "shared/ride.h"
+#include "sim/step/block_forces.h"
 #include "sim/step/slots_touching.h"
 
 #define STEP_SLOTS KILN_SIMD_NAME(kiln_slots_step)
-
-static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
-                               const struct kiln_block *b, float *y)
-{
-    kiln_lanes_values(sim->value_keys, v, &b->clocks, y);
-}
-
-static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v,
-                                const struct kiln_block *b, struct kiln_floats3 *y)
-{
-    find_values(sim, v.x, b, y->x);
-    find_values(sim, v.y, b, y->y);
-    find_values(sim, v.z, b, y->z);
-}
 
 /* ---- stages ---------------------------------------------------------------------------------- */
 
@@ -41,143 +29,6 @@ static inline void find_ages(const struct kiln_sim *sim, struct kiln_block *b)
         .system = sim->step->derived.random_key,
         .scene = sim->step->derived.scene_key,
     };
-}
-
-static inline struct force_input input_at(const struct kiln_sim *sim, const struct kiln_block *b,
-                                          uint32_t i, uint32_t force)
-{
-    const struct force_values values = {
-        .vector = kiln_get3(&b->vector, i),
-        .second = kiln_get3(&b->second, i),
-        .strength = b->strength[i],
-        .pull = b->pulling[i],
-        .quadratic = b->braking[i],
-        .scale = b->scale[i],
-    };
-    return force_input_of(sim, force, kiln_get3(&b->at, i), values);
-}
-
-static inline struct force_effect effect_at(const struct kiln_block *b, uint32_t i)
-{
-    return (struct force_effect){kiln_get3(&b->acceleration, i), b->pull[i], b->quadratic[i]};
-}
-
-static inline void clear_sum(struct kiln_block *b)
-{
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
-        b->pull[i] = 0.0f;
-        b->quadratic[i] = 0.0f;
-    }
-}
-
-static inline void add_effect(struct kiln_block *b, uint32_t i, struct force_effect effect)
-{
-    struct force_effect sum = forces_add(effect_at(b, i), effect);
-    kiln_set3(&b->acceleration, i, sum.acceleration);
-    b->pull[i] = sum.pull;
-    b->quadratic[i] = sum.quadratic;
-}
-
-/* Computes force_curl of all lanes, one octave after the other. */
-static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
-{
-    const uint32_t seed = sim->step->noise_seed, octaves = sim->step->forces[number].octaves;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->place, i, force_curl_place(input_at(sim, b, i, number)));
-        kiln_set3(&b->curl, i, (float3){0.0f, 0.0f, 0.0f});
-    }
-    for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++) {
-        for (uint32_t i = 0; i < KILN_LANES; i++)
-            kiln_set3(
-                &b->curl, i,
-                noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
-    }
-    for (uint32_t i = 0; i < KILN_LANES; i++)
-        add_effect(b, i, force_air(input_at(sim, b, i, number), kiln_get3(&b->curl, i)));
-}
-
-/* Adds the effect of one force to each lane. */
-#define ADD_EFFECT(effect)                                                                         \
-    for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
-    add_effect(b, i, effect)
-
-static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
-{
-    const struct kiln_force_params *force = &sim->step->forces[number];
-    find_values3(sim, force->vector, b, &b->vector);
-    find_values(sim, force->strength, b, b->strength);
-    find_values3(sim, force->second, b, &b->second);
-    find_values(sim, force->pull, b, b->pulling);
-    find_values(sim, force->quadratic, b, b->braking);
-    find_values(sim, force->scale, b, b->scale);
-    switch (force->kind) {
-    case FORCE_GRAVITY:
-        ADD_EFFECT(force_gravity(input_at(sim, b, i, number)));
-        break;
-    case FORCE_DRAG:
-        ADD_EFFECT(force_drag(input_at(sim, b, i, number)));
-        break;
-    case FORCE_WIND:
-        ADD_EFFECT(force_wind(input_at(sim, b, i, number)));
-        break;
-    case FORCE_CURL:
-        add_curl(sim, b, number);
-        break;
-    case FORCE_FIELD:
-        ADD_EFFECT(force_field(sim, input_at(sim, b, i, number)));
-        break;
-#define FORCES_ROW(id, function)                                                                   \
-    case id:                                                                                       \
-        ADD_EFFECT(function(input_at(sim, b, i, number)));                                         \
-        break;
-        FORCES_MORE(FORCES_ROW)
-#undef FORCES_ROW
-    default:
-        break;
-    }
-}
-
-/* Puts the sum of the forces aside, so that the next force is summed up alone. */
-static inline void keep_sum(struct kiln_block *b)
-{
-    b->kept_acceleration = b->acceleration;
-    memcpy(b->kept_pull, b->pull, sizeof b->pull);
-    memcpy(b->kept_quadratic, b->quadratic, sizeof b->quadratic);
-    clear_sum(b);
-}
-
-/* Adds the part of the force that acts at each lane's place to the sum that was put aside, as
- * forces_in_region does. */
-static inline void add_in_region(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
-{
-    const uint region = sim->step->forces[number].region;
-    const float4 center = sim->step->forces[number].region_center;
-    const float4 size = sim->step->forces[number].region_size;
-    for (uint32_t i = 0; i < KILN_LANES; i++) {
-        const float weight = force_region_weight(kiln_get3(&b->at, i), region, center, size);
-        const struct force_effect faded = force_region_fade(effect_at(b, i), weight);
-        kiln_set3(&b->acceleration, i, kiln_get3(&b->kept_acceleration, i));
-        b->pull[i] = b->kept_pull[i];
-        b->quadratic[i] = b->kept_quadratic[i];
-        add_effect(b, i, faded);
-    }
-}
-
-/* Both ways to integrate call this, so it is not inlined into them: it is most of their code. */
-__attribute__((flatten, noinline)) static void
-add_forces(const struct kiln_sim *sim, struct kiln_block *b, const struct kiln_floats3 *velocity)
-{
-    b->clocks.velocity = velocity;
-    clear_sum(b);
-    for (uint32_t k = 0; k < sim->step->force_count; k++) {
-        const bool in_region = sim->step->forces[k].region != REGION_NONE;
-        if (in_region)
-            keep_sum(b);
-        add_force(sim, b, k);
-        if (in_region)
-            add_in_region(sim, b, k);
-    }
 }
 
 static inline void limit_speed(const struct kiln_sim *sim, struct kiln_block *b,
@@ -206,6 +57,11 @@ static inline void start_moving(const struct kiln_sim *sim, struct kiln_block *b
 {
     for (uint32_t i = 0; i < KILN_LANES; i++)
         kiln_set3(&b->start, i, particle_velocity(record_at(b, i)));
+    if (sim->step->carried) {
+        const float4 turn = sim->step->carry.whole;
+        for (uint32_t i = 0; i < KILN_LANES; i++)
+            kiln_set3(&b->start, i, float3_turn(turn, kiln_get3(&b->start, i)));
+    }
     if (!sim->step->pushed)
         return;
     memset(b->radius, 0, sizeof b->radius);
@@ -223,6 +79,19 @@ static inline void push_on(const struct kiln_sim *sim, struct kiln_block *b, uin
     for (uint32_t i = 0; i < slots_left(sim, first_slot); i++)
         kiln_set3(&b->position, i,
                   push_farther(push_of(sim, first_slot + i), kiln_get3(&b->position, i)));
+}
+
+/* Moves all lanes on as the system's node carries them in the whole step. */
+static inline void carry_on_lanes(const struct kiln_sim *sim, struct kiln_block *b)
+{
+    if (!sim->step->carried)
+        return;
+    const struct kiln_carry carry = sim->step->carry;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        const float3 at = particle_position(record_at(b, i));
+        const float3 way = float3_sub(carry_whole(carry, at), at);
+        kiln_set3(&b->position, i, float3_add(kiln_get3(&b->position, i), way));
+    }
 }
 
 /* Integrates all lanes over the whole step, as integrate does. */
@@ -334,20 +203,45 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *
 /* Returns whether lane i has a particle that an impact has stopped. */
 static inline uint32_t rests_at(const struct kiln_sim *sim, const struct kiln_block *b, uint32_t i)
 {
-    return sim->step->family.then == THEN_STOP &&
+    return sim->step->family.then >= THEN_STOP &&
            (b->lanes.words[7][i] & KILN_PARTICLE_STOPPED) != 0;
 }
 
-/* Puts particles that an impact has stopped back to where they are, as step_rest does. */
+/* Puts particles that an impact has stopped back to where they are, or on with the colliders that
+ * they ride, as step_rest does. */
 static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b)
 {
-    if (sim->step->family.then != THEN_STOP)
+    if (sim->step->family.then < THEN_STOP)
         return;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         if (!rests_at(sim, b, i))
             continue;
-        kiln_set3(&b->position, i, particle_position(record_at(b, i)));
-        kiln_set3(&b->velocity, i, particle_velocity(record_at(b, i)));
+        const struct kiln_particle p = record_at(b, i);
+        float3 position = particle_position(p), velocity = {0.0f, 0.0f, 0.0f};
+        if (p.velocity_birth.y != 0) {
+            const struct ride_motion motion = ride_motion_of(sim, p.velocity_birth.y - 1);
+            velocity = ride_velocity(sim, motion, position);
+            position = ride(motion, 0.0f, 1.0f, position);
+        }
+        kiln_set3(&b->start, i, velocity);
+        kiln_set3(&b->position, i, position);
+        kiln_set3(&b->velocity, i, velocity);
+    }
+}
+
+/* Gives particles that rest back the words in which their rest is, as step_at_rest does. before:
+ * the records before the step. */
+static inline void rest_on(const struct kiln_sim *sim, struct kiln_block *b,
+                           const struct kiln_particle *before)
+{
+    if (sim->step->family.then < THEN_STOP)
+        return;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        if (!rests_at(sim, b, i))
+            continue;
+        b->lanes.words[4][i] = before[i].velocity_birth.x;
+        b->lanes.words[5][i] = before[i].velocity_birth.y;
+        b->lanes.words[6][i] = before[i].velocity_birth.z;
     }
 }
 
@@ -364,6 +258,13 @@ static inline void find_lost(const struct kiln_sim *sim, struct kiln_block *b)
     }
     for (uint32_t k = 0; k < step->demitter_count; k++) {
         const float4 low = step->demitter_min[k], high = step->demitter_max[k];
+        const struct kiln_still_frame frame = step->demitter_frames[k];
+        if (still_frame_is(frame)) {
+            for (uint32_t i = 0; i < KILN_LANES; i++)
+                b->lost[i] |= step_is_between(still_frame_inside(frame, kiln_get3(&b->position, i)),
+                                              low, high);
+            continue;
+        }
         for (uint32_t i = 0; i < KILN_LANES; i++)
             b->lost[i] |= step_is_between(kiln_get3(&b->position, i), low, high);
     }
@@ -455,6 +356,8 @@ static inline bool find_births(const struct kiln_sim *sim, uint32_t first_slot, 
         b->born[i] = i < count && step_birth_index(sim, first_slot + i) < births;
         any |= b->born[i];
     }
+    if (any != 0 && sim->step->emit.cells != 0)
+        kiln_slots_fetch(sim, first_slot, b);
     return any != 0;
 }
 
@@ -467,9 +370,7 @@ static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, u
     memset(b->born, 0, sizeof b->born);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = first_slot + i;
-        b->born[i] =
-            family_event_of(sim, *kiln_slots_parent(slots, slot), slot % sim->step->family.slots)
-                .happens;
+        b->born[i] = family_event_of(sim, *kiln_slots_parent(slots, slot), slot).happens;
         any |= b->born[i];
     }
     return any != 0;
@@ -489,10 +390,12 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     else
         fly(sim, b);
     push_on(sim, b, first_slot);
+    carry_on_lanes(sim, b);
     stay_at_rest(sim, b);
     find_lost(sim, b);
     find_alone(sim, b);
     move(b);
+    rest_on(sim, b, records);
     if (sim->step->spins)
         turn(sim, b, first_slot);
     kiln_lanes_store(&b->lanes, records);

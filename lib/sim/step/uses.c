@@ -8,7 +8,7 @@
 #include "sim/world/colliders.h"
 
 struct uses {
-    uint keys, clocks, forces, emitters, collide, births;
+    uint keys, clocks, forces, emitters, collide, births, thens, demitters;
 };
 
 static uint bit(uint part, bool used)
@@ -63,6 +63,8 @@ static void add_force(struct uses *uses, const float4 *keys, const struct kiln_f
     add_curve(uses, KEYED_FORCE_QUADRATIC, kiln_value_uses(keys, &force->quadratic));
     add_curve(uses, KEYED_FORCE_SCALE, kiln_value_uses(keys, &force->scale));
     uses->forces |= 1u << (uint)force->kind | bit(FORCE_IN_REGION, force->region.enabled);
+    uses->forces |=
+        bit(FORCE_IN_NODE, force->attach.name != NULL || force->region.attach.name != NULL);
 }
 
 uint kiln_sim_colliders_used(const struct kiln_scene *scene)
@@ -82,12 +84,17 @@ static void add_system(struct uses *uses, const struct kiln_scene *scene,
 {
     add_births(uses, scene->keys, step);
     add_impacts(uses, scene->keys, &system->collide);
-    uses->emitters |= 1u << step->emit.shape | bit(EMIT_ATTACHED, step->emit.attached != 0);
+    uses->emitters |= 1u << step->emit.shape | bit(EMIT_ATTACHED, step->emit.attached != 0) |
+                      bit(EMIT_ORDERED, step->emit.order != ORDER_RANDOM) |
+                      bit(EMIT_CARRIED, step->carried != 0);
     uses->births |= 1u << step->family.born_of;
+    uses->thens |= 1u << step->family.then;
     if (kiln_sim_colliders_used(scene) != 0)
         uses->collide |= 1u << step->collide;
     for (uint32_t i = 0; i < system->force_count; i++)
         add_force(uses, scene->keys, &system->forces[i]);
+    for (uint32_t i = 0; i < system->demitter_count; i++)
+        uses->demitters |= bit(DEMITTER_IN_NODE, system->demitters[i].attach.name != NULL);
 }
 
 void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene,
@@ -103,8 +110,24 @@ void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene
                   "#define USES_KEYS %uu\n#define USES_CLOCKS %uu\n#define USES_FORCES "
                   "%uu\n#define USES_EMITTERS %uu\n"
                   "#define USES_COLLIDERS %uu\n#define USES_COLLIDE %uu\n"
-                  "#define USES_BIRTHS %uu\n#define USES_INTEGRATION %uu\n",
+                  "#define USES_BIRTHS %uu\n#define USES_THEN %uu\n#define USES_DEMITTERS %uu\n"
+                  "#define USES_INTEGRATION %uu\n",
                   uses.keys, uses.clocks, uses.forces, uses.emitters,
-                  kiln_sim_colliders_used(scene), uses.collide, uses.births,
-                  (uint)scene->integration);
+                  kiln_sim_colliders_used(scene), uses.collide, uses.births, uses.thens,
+                  uses.demitters, (uint)scene->integration);
+}
+
+void kiln_sim_add_bake_uses(struct kiln_text *defines, const struct kiln_scene *scene,
+                            const struct kiln_sim_grids *grids)
+{
+    struct uses uses = {.keys = 0};
+    for (uint32_t i = 0; i < grids->wind_count - grids->file_count; i++) {
+        const struct kiln_baked_forces *of = &grids->baked[i]->of;
+        for (uint32_t k = 0; k < of->count; k++)
+            add_force(&uses, scene->keys, &of->at[k]);
+    }
+    kiln_text_add(defines,
+                  "#define USES_KEYS 0u\n#define USES_CLOCKS 0u\n#define USES_FORCES %uu\n"
+                  "#define USES_INTEGRATION %uu\n",
+                  uses.forces, (uint)scene->integration);
 }

@@ -14,4 +14,8 @@ uint kiln_sim_colliders_used(const struct kiln_scene *scene);
 void kiln_sim_add_uses(struct kiln_text *defines, const struct kiln_scene *scene,
                        const struct kiln_sim_params *params, bool families);
 
+/* Does the same for the kernel that writes baked winds. */
+void kiln_sim_add_bake_uses(struct kiln_text *defines, const struct kiln_scene *scene,
+                            const struct kiln_sim_grids *grids);
+
 #endif

@@ -272,6 +272,12 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
         c = kiln_oriented_collider(scene, object, start_s, end_s);
     }
     c.kind = kind;
+    if (kind < COLLIDER_TERRAIN) {
+        const float3 turn = kiln_object_turn(scene, object, start_s, end_s, c.spin);
+        c.min.w = turn.x;
+        c.max.w = turn.y;
+        c.min_end.w = turn.z;
+    }
     c.restitution = kiln_scene_value(scene, &object->restitution, start_s);
     c.friction = kiln_scene_value(scene, &object->friction, start_s);
     return c;

@@ -1,7 +1,7 @@
-/* This file makes the frame from which an attached emitter gives birth in a step. The host knows
- * the node's frame at any time; kernels get the coefficients of a cubic instead, which they
- * evaluate at each birth (shaders/shared/emit.h). On a circle at 60 steps a second, the cubic is
- * within a millionth of the radius. */
+/* This file makes the frame from which an attached emitter gives birth in a step, and with which
+ * particles in the space of a node move. The host knows the node's frame at any time; kernels get
+ * the coefficients of a cubic instead, which they evaluate at each birth (shaders/shared/emit.h).
+ * On a circle at 60 steps a second, the cubic is within a millionth of the radius. */
 #include "sim/world/emit_frame.h"
 
 #include <math.h>
@@ -40,12 +40,12 @@ static float4 find_spin(const struct kiln_node_frame *start, const struct kiln_n
     return spin;
 }
 
-struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene, uint32_t node, uint32_t step)
+static struct kiln_emit_frame frame_between(const struct kiln_scene *scene,
+                                            const struct kiln_node_step *found)
 {
+    const struct kiln_node_frame start = found->start, end = found->on;
     const double steps_per_s = (double)scene->rate.num / (double)scene->rate.den;
     const double dt_s = 1 / steps_per_s;
-    const struct kiln_node_step found = kiln_node_step_at(scene, node, step);
-    const struct kiln_node_frame start = found.start, end = found.on;
     double linear[3], square[3], cube[3];
     for (int c = 0; c < 3; c++) {
         const double way = end.at[c] - start.at[c], to = dt_s * end.velocity[c];
@@ -61,5 +61,37 @@ struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene, uint32_t 
         .pose = FLOAT4(exact_canon((float)start.turn[0]), exact_canon((float)start.turn[1]),
                        exact_canon((float)start.turn[2]), exact_canon((float)start.turn[3])),
         .spin = find_spin(&start, &end, dt_s),
+    };
+}
+
+struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene,
+                                       const struct kiln_emitter *emit, uint32_t step)
+{
+    const struct kiln_node_step found =
+        emit->source.of_object
+            ? kiln_object_step_at(scene, &scene->backdrop.objects[emit->source.number], step)
+            : kiln_node_step_at(scene, emit->attach.node, step);
+    return frame_between(scene, &found);
+}
+
+/* Returns the rotation from one to another, both as unit quaternions of doubles. */
+static float4 turn_between(const double from[4], const double to[4])
+{
+    const double vector[3] = {
+        to[0] * from[3] - to[3] * from[0] - to[1] * from[2] + to[2] * from[1],
+        to[1] * from[3] - to[3] * from[1] - to[2] * from[0] + to[0] * from[2],
+        to[2] * from[3] - to[3] * from[2] - to[0] * from[1] + to[1] * from[0],
+    };
+    return to_float4(vector, to[3] * from[3] + to[0] * from[0] + to[1] * from[1] + to[2] * from[2]);
+}
+
+struct kiln_carry kiln_carry_frame(const struct kiln_scene *scene, uint32_t node, uint32_t step)
+{
+    const struct kiln_node_step found = kiln_node_step_at(scene, node, step);
+    return (struct kiln_carry){
+        .frame = frame_between(scene, &found),
+        .end = to_float4(found.end.at, found.jumps ? 1 : 0),
+        .whole = turn_between(found.start.turn, found.end.turn),
+        .jump = turn_between(found.on.turn, found.end.turn),
     };
 }

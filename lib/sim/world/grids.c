@@ -1,13 +1,18 @@
 /* This file loads or makes the grids of a scene (wind, terrain, and those of meshes), and puts them
- * all into one buffer, on the host or in GL. */
+ * all into one buffer, on the host or in GL. Those of baked winds are written by sim/step/bakes.c.
+ */
 #include "sim/world/grids.h"
 
 #include <string.h>
 
 #include "asset/geometry/grid_in.h"
 #include "asset/geometry/nearest.h"
+#include "base/error.h"
+#include "scene/baked.h"
+#include "scene/source.h"
 #include "shared/exact.h"
 #include "sim/world/papers/papers.h"
+#include "sim/world/posed_births.h"
 
 /* The grids of meshes by how particles collide with them. */
 static const struct kiln_mesh_row *const MESH_ROWS[KILN_COLLIDER_KINDS] = {
@@ -32,7 +37,16 @@ const struct kiln_mesh_row *kiln_sim_mesh_row(const struct kiln_object *mesh)
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file)
 {
     uint32_t i = 0;
-    while (i < grids->wind_count && strcmp(grids->files[i], file) != 0)
+    while (i < grids->file_count && strcmp(grids->files[i], file) != 0)
+        i++;
+    return i;
+}
+
+uint32_t kiln_sim_grids_find_baked(const struct kiln_sim_grids *grids,
+                                   const struct kiln_force *baked)
+{
+    uint32_t i = grids->file_count;
+    while (i < grids->wind_count && grids->baked[i - grids->file_count] != baked)
         i++;
     return i;
 }
@@ -42,15 +56,23 @@ bool kiln_sim_grids_needs(const struct kiln_object *object)
     return object->collide && kiln_object_is_mesh(object) && !kiln_volumes_needs(object);
 }
 
-static void list_files(struct kiln_sim_grids *grids, const struct kiln_scene *scene)
+/* Lists the winds that have grids: files, each once, and then baked ones. */
+static void list_winds(struct kiln_sim_grids *grids, const struct kiln_scene *scene)
 {
+    const struct kiln_force *force;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        for (uint32_t k = 0; k < system->force_count; k++) {
-            const char *file = system->forces[k].file;
-            if (system->forces[k].kind == KILN_FORCE_FIELD &&
-                kiln_sim_grids_find(grids, file) == grids->wind_count)
-                grids->files[grids->wind_count++] = file;
+        for (uint32_t k = 0; (force = kiln_system_force(&scene->systems[i], k)) != NULL; k++) {
+            if (force->kind == KILN_FORCE_FIELD &&
+                kiln_sim_grids_find(grids, force->file) == grids->file_count)
+                grids->files[grids->file_count++] = force->file;
+        }
+    }
+    grids->wind_count = grids->file_count;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
+            force = &scene->systems[i].forces[k];
+            if (force->kind == KILN_FORCE_BAKED)
+                grids->baked[grids->wind_count++ - grids->file_count] = force;
         }
     }
     grids->count = grids->wind_count;
@@ -81,7 +103,7 @@ static bool load_object(struct sources *sources, uint32_t number, const struct k
 static bool load(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
                  struct sources *sources, struct kiln_threads *threads, struct kiln_error *error)
 {
-    for (uint32_t i = 0; i < grids->wind_count; i++) {
+    for (uint32_t i = 0; i < grids->file_count; i++) {
         sources->winds[i] = kiln_grid_load(scene->loader, grids->files[i], error);
         if (!sources->winds[i])
             return false;
@@ -117,6 +139,27 @@ static struct kiln_grid place_wind(const struct kiln_grid_file *file, size_t fir
     return (struct kiln_grid){.origin = canon4(file->origin),
                               .per_metre = canon4(per_metre),
                               .size = {file->size[0], file->size[1], file->size[2], (uint)first}};
+}
+
+static struct kiln_grid place_baked(const struct kiln_force *baked, size_t first)
+{
+    const float center[3] = {baked->box_center.x.constant, baked->box_center.y.constant,
+                             baked->box_center.z.constant};
+    const float edges[3] = {baked->box_size.x.constant, baked->box_size.y.constant,
+                            baked->box_size.z.constant};
+    float origin[3], per_metre[3], spacing[3];
+    uint32_t size[3];
+    kiln_baked_samples(baked, size);
+    for (int c = 0; c < 3; c++) {
+        const float cells = (float)(size[c] - 1);
+        origin[c] = center[c] - 0.5f * edges[c];
+        per_metre[c] = cells / edges[c];
+        spacing[c] = edges[c] / cells;
+    }
+    return (struct kiln_grid){.origin = canon4(origin),
+                              .per_metre = canon4(per_metre),
+                              .high = canon4(spacing),
+                              .size = {size[0], size[1], size[2], (uint)first}};
 }
 
 static struct kiln_grid place_terrain(const struct kiln_terrain *terrain, size_t first)
@@ -157,8 +200,10 @@ static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
     size_t total = grids->key_words;
     for (uint32_t i = 0; i < grids->count; i++) {
         const uint32_t k = i - grids->wind_count;
-        if (i < grids->wind_count) {
+        if (i < grids->file_count) {
             grids->table[i] = place_wind(sources->winds[i], total);
+        } else if (i < grids->wind_count) {
+            grids->table[i] = place_baked(grids->baked[i - grids->file_count], total);
         } else if (sources->terrains[k]) {
             grids->table[i] = place_terrain(sources->terrains[k], total);
             grids->top[i] = sources->terrains[k]->top;
@@ -169,6 +214,29 @@ static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
         total += count_words(grids, sources, i);
     }
     return total;
+}
+
+/* Places what particles are born on, behind the grids. Returns the number of words of all. */
+static size_t place_births(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
+                           size_t total)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        grids->sources[i] = (uint32_t)total;
+        total += source ? source->word_count : 0;
+    }
+    return total;
+}
+
+static void copy_births(float4 *words, const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        if (!source)
+            continue;
+        memcpy(words, source->words, source->word_count * sizeof *words);
+        words += source->word_count;
+    }
 }
 
 static void copy_terrain(float4 *words, const struct kiln_terrain *terrain, size_t count)
@@ -192,12 +260,16 @@ static void copy_mesh(float4 *words, const struct sources *sources, uint32_t k)
     memcpy(words, from, count * sizeof *words);
 }
 
-static void copy_words(float4 *words, const struct sources *sources, uint32_t wind_count,
-                       uint32_t i, size_t count)
+/* Copies the words of grid i. Those of baked winds are written before the first step that reads
+ * them. */
+static void copy_words(float4 *words, const struct kiln_sim_grids *grids,
+                       const struct sources *sources, uint32_t i, size_t count)
 {
-    const uint32_t k = i - wind_count;
-    if (i < wind_count)
+    const uint32_t k = i - grids->wind_count;
+    if (i < grids->file_count)
         copy_wind(words, sources->winds[i], count);
+    else if (i < grids->wind_count)
+        memset(words, 0, count * sizeof *words);
     else if (sources->terrains[k])
         copy_terrain(words, sources->terrains[k], count);
     else
@@ -208,8 +280,15 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
                  const struct kiln_scene *scene, const struct sources *sources,
                  struct kiln_error *error)
 {
-    const size_t total = place(grids, sources);
-    kiln_buffer_init(&grids->words, device, total * sizeof(float4), "grids");
+    const size_t total = place_births(grids, scene, place(grids, sources));
+    const size_t bytes = total * sizeof(float4);
+    if (device && bytes > (uint64_t)device->info.max_storage_block_bytes)
+        return kiln_error_set(error, KILN_DEVICE_FAILED,
+                              "grids, and what particles are born on, take %zu bytes; %s allows "
+                              "%llu; use simulate=cpu",
+                              bytes, device->info.name,
+                              (unsigned long long)device->info.max_storage_block_bytes);
+    kiln_buffer_init(&grids->words, device, bytes, "grids");
     float4 *words = kiln_buffer_host(&grids->words, KILN_OVERWRITE, error);
     if (!words)
         return false;
@@ -217,9 +296,10 @@ static bool fill(struct kiln_sim_grids *grids, struct kiln_device *device,
     words += grids->key_words;
     for (uint32_t i = 0; i < grids->count; i++) {
         const size_t count = count_words(grids, sources, i);
-        copy_words(words, sources, grids->wind_count, i, count);
+        copy_words(words, grids, sources, i, count);
         words += count;
     }
+    copy_births(words, scene);
     return true;
 }
 
@@ -228,22 +308,32 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
                          struct kiln_error *error)
 {
     *grids = (struct kiln_sim_grids){
-        .key_words = device && kiln_scene_stores_keys(scene) ? scene->key_count : 0};
+        .key_words = device && kiln_scene_stores_keys(scene) ? scene->key_count : 0,
+        .has_sources = kiln_sources_words(scene) > 0};
     kiln_buffer_init(&grids->words, device, 0, "grids");
-    list_files(grids, scene);
+    list_winds(grids, scene);
     struct sources sources = {.winds = {NULL}};
-    const bool ok =
-        load(grids, scene, &sources, threads, error) &&
-        (grids->count + grids->key_words == 0 || fill(grids, device, scene, &sources, error)) &&
-        kiln_volumes_init(&grids->volumes, device, scene, error);
+    const bool ok = load(grids, scene, &sources, threads, error) &&
+                    (grids->count + grids->key_words + grids->has_sources == 0 ||
+                     fill(grids, device, scene, &sources, error)) &&
+                    kiln_sim_posed_init(grids, scene, error) &&
+                    kiln_volumes_init(&grids->volumes, device, scene, error);
     free_sources(&sources);
     return ok;
 }
 
 void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
 {
-    /* The sources, which are freed when all words are copied, take about as much as the words. */
-    uint64_t making = 0;
+    /* What grids are loaded to takes about as much as their words, until all of them are copied.
+     * Baked winds are not loaded. */
+    uint64_t making = 0, loaded = scene->samples;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
+            const struct kiln_force *force = &scene->systems[i].forces[k];
+            uint32_t size[3];
+            loaded -= force->kind == KILN_FORCE_BAKED ? kiln_baked_samples(force, size) : 0;
+        }
+    }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
         if (!kiln_sim_grids_needs(object) || object->kind != KILN_OBJECT_MESH)
@@ -253,12 +343,18 @@ void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footpr
     }
     kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, scene->samples, sizeof(float4));
     kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
-                        scene->samples * sizeof(struct kiln_terrain_point) + making);
+                        loaded * sizeof(struct kiln_terrain_point) + making);
+    /* The scene has the words of sources, too. */
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_words(scene),
+                       2 * sizeof(float4));
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_making(scene));
+    kiln_sim_posed_footprint(scene, footprint);
     kiln_volumes_footprint(scene, footprint);
 }
 
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids)
 {
+    kiln_sim_posed_finish(grids);
     kiln_buffer_finish(&grids->words);
     kiln_volumes_finish(&grids->volumes);
     *grids = (struct kiln_sim_grids){.count = 0};

@@ -1,6 +1,7 @@
 /* Loads the grids that a scene's forces and colliders look up. All grids lie in one buffer; a table
- * says where each begins. In GL the buffer also has the keys of a scene that has too many for a
- * uniform block, since few storage blocks are guaranteed. */
+ * says where each begins. The words of the meshes, images and paths that particles are born on lie
+ * behind them (scene/source.h). In GL the buffer also has the keys of a scene that has too many for
+ * a uniform block, since few storage blocks are guaranteed. */
 #ifndef KILN_SIM_WORLD_GRIDS_H
 #define KILN_SIM_WORLD_GRIDS_H
 
@@ -11,10 +12,13 @@
 #include "sim/world/volumes.h"
 
 struct kiln_sim_grids {
-    /* number of grids: first those of wind files, then those of objects that collide */
+    /* number of grids: first those of wind files, then those of baked winds, then those of objects
+     * that collide */
     uint32_t count;
-    uint32_t wind_count;
-    const char *files[KILN_MAX_WINDS];    /* wind file of each grid; the scene owns the texts */
+    uint32_t wind_count; /* of files and of baked winds */
+    uint32_t file_count;
+    const char *files[KILN_MAX_WINDS]; /* wind file of each grid; the scene owns the texts */
+    const struct kiln_force *baked[KILN_MAX_BAKED]; /* forces whose grids follow those of files */
     uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's grid, if it needs one */
     float top[KILN_MAX_GRIDS];            /* m: highest point of a terrain */
     float steepest[KILN_MAX_GRIDS];       /* of a terrain: the value for struct kiln_collider */
@@ -22,6 +26,12 @@ struct kiln_sim_grids {
     /* words of all grids, as float4; in GL, the scene's keys lie before them if they are stored */
     struct kiln_buffer words;
     size_t key_words;
+    uint32_t sources[KILN_MAX_SYSTEMS]; /* first word of what a system is born on */
+    bool has_sources;
+    /* of a system that is born on a mesh with an animation: its vertices at both ends of a step,
+     * and the step */
+    float (*poses[KILN_MAX_SYSTEMS])[6];
+    uint32_t posed_step[KILN_MAX_SYSTEMS];
     struct kiln_volumes volumes;
 };
 
@@ -42,7 +52,9 @@ bool kiln_sim_grids_needs(const struct kiln_object *object);
 /* Returns the kind of the grid of a mesh that needs one. */
 const struct kiln_mesh_row *kiln_sim_mesh_row(const struct kiln_object *mesh);
 
-/* Returns the number of the grid of a wind file that the scene names. */
+/* Return the number of the grid of a wind file that the scene names, and of a baked wind. */
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file);
+uint32_t kiln_sim_grids_find_baked(const struct kiln_sim_grids *grids,
+                                   const struct kiln_force *baked);
 
 #endif

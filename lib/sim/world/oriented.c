@@ -259,3 +259,50 @@ struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
                         : 0.0f,
     };
 }
+
+/* Makes the quaternion of a rotation, an axis and an angle. */
+static void turn_of(float4 spin, double turn[4])
+{
+    const struct exact_angle half = exact_sincos(0.5f * spin.w);
+    turn[0] = (double)(spin.x * half.sine);
+    turn[1] = (double)(spin.y * half.sine);
+    turn[2] = (double)(spin.z * half.sine);
+    turn[3] = (double)half.cosine;
+}
+
+/* Multiplies quaternions: y turns by b, then by a. */
+static void multiply_turns(const double a[4], const double b[4], double y[4])
+{
+    y[0] = a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1];
+    y[1] = a[3] * b[1] + a[1] * b[3] + a[2] * b[0] - a[0] * b[2];
+    y[2] = a[3] * b[2] + a[2] * b[3] + a[0] * b[1] - a[1] * b[0];
+    y[3] = a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2];
+}
+
+/* Returns the rotation of an object that is attached: that of its axis in the node, then that of
+ * the node. */
+static float4 attached_spin(const struct kiln_scene *scene, const struct kiln_object *object,
+                            float start_s, float end_s)
+{
+    const uint32_t node = object->attach.node;
+    const struct kiln_node_frame start = kiln_node_frame_at(scene, node, start_s, start_s);
+    const struct kiln_node_frame end = kiln_node_frame_at(scene, node, end_s, end_s);
+    const float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
+    const float3 from = float3_normalize(kiln_scene_value3(scene, &object->axis, start_s), up);
+    const float3 to = float3_normalize(kiln_scene_value3(scene, &object->axis, end_s), up);
+    double within[4], whole[4];
+    if (object->kind == KILN_OBJECT_SPHERE || kiln_value3_is_constant(&object->axis))
+        return kiln_spin_between_turns(start.turn, end.turn);
+    turn_of(spin_between(from, to), within);
+    multiply_turns(end.turn, within, whole);
+    return kiln_spin_between_turns(start.turn, whole);
+}
+
+float3 kiln_object_turn(const struct kiln_scene *scene, const struct kiln_object *object,
+                        float start_s, float end_s, float4 spin)
+{
+    if (object->attach.name && object->kind != KILN_OBJECT_BOX)
+        spin = attached_spin(scene, object, start_s, end_s);
+    const float3 axis = FLOAT3(spin.x, spin.y, spin.z), turn = float3_scale(axis, spin.w);
+    return FLOAT3(exact_canon(turn.x), exact_canon(turn.y), exact_canon(turn.z));
+}

@@ -24,4 +24,10 @@ struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
                                             const struct kiln_object *object, float start_s,
                                             float end_s);
 
+/* Returns the whole rotation of an object in a step, axis times angle, rad. An object that is round
+ * about an axis may turn about it by its node, which the collider need not know. spin: that of its
+ * collider. */
+float3 kiln_object_turn(const struct kiln_scene *scene, const struct kiln_object *object,
+                        float start_s, float end_s, float4 spin);
+
 #endif

@@ -8,26 +8,31 @@
 
 #include "base/error.h"
 #include "scene/scene_births.h"
+#include "scene/source.h"
 #include "shared/exact.h"
 #include "shared/forces.h"
 #include "shared/random.h"
 #include "shared/trace.h"
 #include "sim/world/colliders.h"
 #include "sim/world/emit_frame.h"
+#include "sim/world/force_params.h"
+#include "sim/world/posed_births.h"
 
 static_assert(sizeof(struct kiln_value) == 16, "std140");
 static_assert(sizeof(struct kiln_derived_params) == 48, "std140");
 static_assert(sizeof(struct kiln_emit_params) == 368, "std140");
-static_assert(sizeof(struct kiln_force_params) == 224, "std140");
+static_assert(sizeof(struct kiln_still_frame) == 32, "std140");
+static_assert(sizeof(struct kiln_force_params) == 288, "std140");
 static_assert(sizeof(struct kiln_birth_group) == 16, "std140");
 static_assert(offsetof(struct kiln_step_params, step) == 416, "std140");
 static_assert(offsetof(struct kiln_step_params, randomness) == 480, "std140");
 static_assert(offsetof(struct kiln_step_params, pushed) == 548, "std140");
 static_assert(offsetof(struct kiln_step_params, bounds_min) == 592, "std140");
-static_assert(offsetof(struct kiln_step_params, groups) == 880, "std140");
-static_assert(offsetof(struct kiln_step_params, forces) == 1920, "std140");
-static_assert(offsetof(struct kiln_step_params, family) == 9088, "std140");
-static_assert(sizeof(struct kiln_step_params) == 9168, "std140");
+static_assert(offsetof(struct kiln_step_params, groups) == 1136, "std140");
+static_assert(offsetof(struct kiln_step_params, forces) == 2192, "std140");
+static_assert(offsetof(struct kiln_step_params, family) == 11408, "std140");
+static_assert(offsetof(struct kiln_step_params, carry) == 11520, "std140");
+static_assert(sizeof(struct kiln_step_params) == 11664, "std140");
 static_assert(sizeof(struct kiln_step_params) <= 16384, "what every GL allows a uniform block");
 static_assert(KILN_SURROUNDINGS_BLOCK <= 16384, "what every GL allows a uniform block");
 static_assert(sizeof(struct kiln_trace) == 112, "std430");
@@ -36,7 +41,7 @@ static_assert(sizeof(struct kiln_grid) == 80, "std140");
 static_assert(sizeof(struct kiln_collider) == 208, "std140");
 static_assert(sizeof(struct kiln_pose) == 160, "std140");
 
-static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 1, "the rate and each burst");
+static_assert(KILN_MAX_BIRTH_GROUPS == KILN_MAX_BURSTS + 2, "the rate, the way and each burst");
 static_assert(KILN_MAX_COLLIDERS == KILN_MAX_OBJECTS + 1, "each object and the floor");
 
 static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KILN_EMITTER_SPHERE &&
@@ -58,7 +63,7 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
               "the shaders' names of enum kiln_align");
 
 static_assert(THEN_BOUNCE == (uint)KILN_THEN_BOUNCE && THEN_DIE == (uint)KILN_THEN_DIE &&
-                  THEN_STOP == (uint)KILN_THEN_STOP,
+                  THEN_STOP == (uint)KILN_THEN_STOP && THEN_STICK == (uint)KILN_THEN_STICK,
               "the shaders' names of enum kiln_then");
 
 static float4 to_float4(const float v[3])
@@ -66,11 +71,40 @@ static float4 to_float4(const float v[3])
     return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
 }
 
+static uint shape_of(const struct kiln_emitter *emit)
+{
+    switch (emit->shape) {
+    case KILN_EMITTER_RING:
+        return EMIT_DISC;
+    case KILN_EMITTER_MESH:
+        if (emit->source.on == KILN_ON_VERTICES)
+            return EMIT_VERTICES;
+        if (emit->source.on == KILN_ON_VOLUME)
+            return EMIT_COLUMNS;
+        return emit->source.made && emit->source.made->corners ? EMIT_POSED : EMIT_TRIANGLES;
+    case KILN_EMITTER_IMAGE:
+        return EMIT_IMAGE;
+    case KILN_EMITTER_PATH:
+        return EMIT_PATH;
+    default:
+        return (uint)emit->shape;
+    }
+}
+
+static uint order_of(const struct kiln_emitter *emit)
+{
+    const bool closed = emit->shape == KILN_EMITTER_RING ||
+                        (emit->shape == KILN_EMITTER_PATH && emit->source.path.closed);
+    if (!emit->ordered)
+        return ORDER_RANDOM;
+    return closed ? ORDER_CLOSED : ORDER_OPEN;
+}
+
 static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emitter *emit)
 {
     const bool ring = emit->shape == KILN_EMITTER_RING;
     *params = (struct kiln_emit_params){
-        .shape = ring ? EMIT_DISC : (uint)emit->shape,
+        .shape = shape_of(emit),
         .outward = emit->outward,
         .surface = ring || emit->surface,
         .nozzles = emit->nozzles,
@@ -82,8 +116,12 @@ static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emit
         .radius = emit->radius,
         .inherit = emit->inherit,
         .turn = emit->turn,
-        .attached = emit->attach.name != NULL,
+        .attached = emit->attach.name != NULL || emit->source.of_object,
+        .cells = emit->source.made ? emit->source.made->cells : 0,
+        .order = order_of(emit),
     };
+    if (params->shape == EMIT_IMAGE || params->shape == EMIT_COLUMNS)
+        params->size.x = (struct kiln_value){.constant = emit->source.edge};
 }
 
 static uint collide_kind(const struct kiln_collide *collide)
@@ -142,6 +180,18 @@ bool kiln_sim_needs_all_forces(const struct kiln_scene *scene)
     return any;
 }
 
+bool kiln_sim_bakes_need_all_forces(const struct kiln_scene *scene,
+                                    const struct kiln_sim_grids *grids)
+{
+    bool any = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    for (uint32_t i = grids->file_count; i < grids->wind_count; i++) {
+        const struct kiln_baked_forces *of = &grids->baked[i - grids->file_count]->of;
+        for (uint32_t k = 0; k < of->count; k++)
+            any = any || is_of_all_forces(of->at[k].kind);
+    }
+    return any;
+}
+
 static void fill_system(struct kiln_step_params *params, const struct kiln_scene *scene,
                         uint32_t index)
 {
@@ -157,13 +207,14 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .bounds_min = to_float4(system->bounds.min),
         .bounds_max = to_float4(system->bounds.max),
         .rubs = rubs(scene, &system->collide),
+        .carried = system->space.name != NULL,
     };
     fill_emitter(&params->emit, &system->emit);
     for (uint32_t i = 0; i < system->force_count; i++)
         params->forces_do |= what_force_does(&system->forces[i]);
     for (uint32_t i = 0; i < system->demitter_count; i++) {
-        params->demitter_min[i] = to_float4(system->demitters[i].min);
-        params->demitter_max[i] = to_float4(system->demitters[i].max);
+        params->demitter_min[i] = to_float4(system->demitters[i].box.min);
+        params->demitter_max[i] = to_float4(system->demitters[i].box.max);
     }
 }
 
@@ -192,7 +243,9 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         struct kiln_family_params *family = &params->systems[index].family;
         *family = (struct kiln_family_params){.then = then_of(&system->collide)};
         if (parent->enabled) {
-            family->born_of = 1 + (uint)parent->event;
+            const bool by_metre = parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0;
+            family->born_of = by_metre ? BORN_OF_WAY : 1 + (uint)parent->event;
+            family->per_metre = (float)parent->per_metre;
             family->align = (uint)parent->align;
             family->slots = parent->slots;
             family->rate = parent->rate;
@@ -203,6 +256,8 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         }
         if (kiln_sim_is_traced(scene, index)) {
             family->traced = 1;
+            family->keeps = kiln_family_is_inherited(scene, index);
+            family->counted = kiln_family_counted_hits(scene, index);
             family->traces = params->trace_count;
             params->trace_count += system->capacity;
         }
@@ -221,16 +276,28 @@ static void fill_pushes(struct kiln_sim_params *params, const struct kiln_scene 
     }
 }
 
+/* Fills in the rows of spins and ways, in the order of the pool (particles/pool.c). */
 static void fill_spins(struct kiln_sim_params *params, const struct kiln_scene *scene)
 {
     params->spin_count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (!kiln_scene_system_spins(scene, i))
-            continue;
-        params->systems[i].spins = 1;
-        params->systems[i].rubs |= params->systems[i].collide != COLLIDE_OFF;
-        params->systems[i].first_spin = params->spin_count;
-        params->spin_count += scene->systems[i].capacity;
+        struct kiln_step_params *step = &params->systems[i];
+        if (kiln_scene_system_spins(scene, i)) {
+            step->spins = 1;
+            step->rubs |= step->collide != COLLIDE_OFF;
+            step->first_spin = params->spin_count;
+            params->spin_count += scene->systems[i].capacity;
+        }
+        if (kiln_family_travels(scene, i)) {
+            step->family.travels = 1;
+            step->family.ways = params->spin_count;
+            params->spin_count += scene->systems[i].capacity;
+        }
+    }
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_parent *parent = &scene->systems[i].emit.parent;
+        if (parent->enabled)
+            params->systems[i].family.parent_ways = params->systems[parent->system].family.ways;
     }
 }
 
@@ -261,101 +328,13 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     for (uint32_t i = 0; i < grids->count; i++)
         params->surroundings.grids[i] = grids->table[i];
     params->system_count = scene->system_count;
-    for (uint32_t i = 0; i < scene->system_count; i++)
+    for (uint32_t i = 0; i < scene->system_count; i++) {
         fill_system(&params->systems[i], scene, i);
+        params->systems[i].emit.first_word = grids->sources[i];
+    }
     fill_families(params, scene);
     fill_pushes(params, scene);
     fill_spins(params, scene);
-}
-
-/* A moment of a system, for which the host evaluates values. */
-struct moment {
-    const struct kiln_scene *scene;
-    uint32_t system;
-    float time_s;
-};
-
-/* Evaluates a value that is the same for all particles; another one stays as it is. */
-static struct kiln_value at_time(const struct moment *m, struct kiln_value value)
-{
-    if (kiln_value_uses(m->scene->keys, &value) & KILN_VALUE_OF_PARTICLES)
-        return value;
-    return (struct kiln_value){.constant =
-                                   kiln_scene_system_value(m->scene, m->system, &value, m->time_s)};
-}
-
-static struct kiln_value3 at_time3(const struct moment *m, struct kiln_value3 value)
-{
-    return (struct kiln_value3){at_time(m, value.x), at_time(m, value.y), at_time(m, value.z)};
-}
-
-/* Fills in where a force acts. */
-static void fill_region(struct kiln_force_params *params, const struct moment *m,
-                        const struct kiln_force_region *region)
-{
-    const struct kiln_scene *scene = m->scene;
-    const struct kiln_value3 *center = region->sphere ? &region->ball_center : &region->box_center;
-    const float3 place = kiln_scene_system_value3(scene, m->system, center, m->time_s);
-    const float3 edges = kiln_scene_system_value3(scene, m->system, &region->box_size, m->time_s);
-    const float radius = kiln_scene_system_value(scene, m->system, &region->radius, m->time_s);
-    const float falloff = kiln_scene_system_value(scene, m->system, &region->falloff, m->time_s);
-    params->region = region->sphere ? REGION_SPHERE : REGION_BOX;
-    params->region_center = FLOAT4(place.x, place.y, place.z, falloff);
-    params->region_size = FLOAT4(0.5f * edges.x, 0.5f * edges.y, 0.5f * edges.z, 0.0f);
-    if (region->sphere)
-        params->region_size = FLOAT4(radius, 0.0f, 0.0f, 0.0f);
-}
-
-static float3 constants_of(const struct kiln_value3 *value)
-{
-    return FLOAT3(value->x.constant, value->y.constant, value->z.constant);
-}
-
-static struct kiln_value3 of_constants(float3 v)
-{
-    return (struct kiln_value3){
-        .x = {.constant = v.x}, .y = {.constant = v.y}, .z = {.constant = v.z}};
-}
-
-/* Takes a force from its node to the world. Its place, axis and radius do not differ between
- * particles, so they are constants in a step. */
-static void attach_force(const struct moment *m, const struct kiln_attach *attach,
-                         struct kiln_force_params *params)
-{
-    const float3 at = constants_of(&params->vector), axis = constants_of(&params->second);
-    params->vector = of_constants(kiln_attached_point(m->scene, attach, at, m->time_s));
-    params->second = of_constants(kiln_attached_vector(m->scene, attach, axis, m->time_s));
-    params->scale.constant =
-        kiln_attached_length(m->scene, attach, params->scale.constant, m->time_s);
-}
-
-static struct kiln_force_params force_at_time(const struct moment *m,
-                                              const struct kiln_sim_grids *grids,
-                                              const struct kiln_force *force)
-{
-    struct kiln_force_params params = {
-        .kind = (uint)force->kind,
-        .octaves = force->octaves,
-        .profile = (uint)force->profile,
-        .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
-        .vector = at_time3(m, force->vector),
-        .second = at_time3(m, force->second),
-        .strength = at_time(m, force->strength),
-        .pull = at_time(m, force->pull),
-        .quadratic = at_time(m, force->quadratic),
-        .scale = at_time(m, force->scale),
-        .inward = kiln_scene_system_value(m->scene, m->system, &force->inward, m->time_s),
-        .lift = kiln_scene_system_value(m->scene, m->system, &force->lift, m->time_s),
-    };
-    if (force->mode == KILN_WIND_ADD) {
-        params.added = (float)((double)m->scene->rate.num / m->scene->rate.den);
-        params.pull = (struct kiln_value){.constant = 0.0f};
-    }
-    if (force->region.enabled)
-        fill_region(&params, m, &force->region);
-    if (force->attach.name)
-        attach_force(m, &force->attach, &params);
-    return params;
 }
 
 /* Sets the next serial of a system of children. It follows from the parents' serials, so no births
@@ -417,6 +396,8 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
     if (step == 0 || step > KILN_MAX_STEPS)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: step %u; a run has at most %u steps",
                               scene->name, step, KILN_MAX_STEPS);
+    if (!kiln_sim_pose_births(params->grids, scene, step, error))
+        return false;
     for (uint32_t n = 0; n < params->system_count; n++) {
         uint32_t i = params->order[n];
         struct kiln_step_params *p = &params->systems[i];
@@ -431,9 +412,31 @@ bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_sc
         p->used = kiln_pool_used(&pool->systems[i]);
         find_spin(p, scene, i, p->time_s);
         if (p->emit.attached)
-            p->emit.frame = kiln_emit_frame(scene, scene->systems[i].emit.attach.node, step);
+            p->emit.frame = kiln_emit_frame(scene, &scene->systems[i].emit, step);
+        if (p->carried)
+            p->carry = kiln_carry_frame(scene, scene->systems[i].space.node, step);
     }
     return true;
+}
+
+/* Brings demitters that lie in nodes to where these are at the end of a step, when particles are
+ * looked for in them. */
+static void place_demitters(struct kiln_step_params *params, const struct kiln_scene *scene,
+                            const struct kiln_system *system, float end_s)
+{
+    for (uint32_t i = 0; i < system->demitter_count; i++) {
+        const struct kiln_demitter *demitter = &system->demitters[i];
+        if (!demitter->attach.name)
+            continue;
+        const struct kiln_still_frame frame = kiln_sim_frame(scene, &demitter->attach, end_s);
+        const float *low = demitter->box.min, *high = demitter->box.max;
+        const float scale = frame.at.w;
+        params->demitter_frames[i] = frame;
+        params->demitter_min[i] =
+            to_float4((float[]){low[0] * scale, low[1] * scale, low[2] * scale});
+        params->demitter_max[i] =
+            to_float4((float[]){high[0] * scale, high[1] * scale, high[2] * scale});
+    }
 }
 
 bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
@@ -441,21 +444,20 @@ bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scen
 {
     if (!kiln_sim_params_births(params, scene, pool, step, error))
         return false;
-    float start_s = kiln_scene_time(scene, step - 1);
-    float end_s = kiln_scene_time(scene, step);
-    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
-    float forces_s = staged ? 0.5f * (start_s + end_s) : start_s;
+    const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
+    const float forces_s = kiln_sim_forces_s(scene, step);
     for (uint32_t i = 0; i < params->system_count; i++) {
         const struct kiln_system *system = &scene->systems[i];
         struct kiln_step_params *p = &params->systems[i];
-        const struct moment start = {scene, i, start_s}, acting = {scene, i, forces_s};
-        p->randomness = at_time(&start, system->collide.randomness);
-        p->slowdown = at_time(&start, system->collide.slowdown);
-        p->restitution = at_time(&start, system->collide.restitution);
-        p->friction = at_time(&start, system->collide.friction);
-        p->family.chance = at_time(&start, system->collide.chance);
+        const struct kiln_sim_moment start = {scene, i, start_s}, acting = {scene, i, forces_s};
+        p->randomness = kiln_sim_value_at(&start, system->collide.randomness);
+        p->slowdown = kiln_sim_value_at(&start, system->collide.slowdown);
+        p->restitution = kiln_sim_value_at(&start, system->collide.restitution);
+        p->friction = kiln_sim_value_at(&start, system->collide.friction);
+        p->family.chance = kiln_sim_value_at(&start, system->collide.chance);
         for (uint32_t k = 0; k < system->force_count; k++)
-            p->forces[k] = force_at_time(&acting, params->grids, &system->forces[k]);
+            p->forces[k] = kiln_sim_force_params(&acting, params->grids, &system->forces[k]);
+        place_demitters(p, scene, system, end_s);
     }
     kiln_sim_colliders_fill(&params->surroundings, scene, params->grids, start_s, end_s);
     return true;

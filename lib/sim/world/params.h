@@ -28,6 +28,10 @@ bool kiln_sim_is_family(const struct kiln_step_params *params);
  * (shared/force.h). */
 bool kiln_sim_needs_all_forces(const struct kiln_scene *scene);
 
+/* Returns whether the kernel that writes baked winds needs them. */
+bool kiln_sim_bakes_need_all_forces(const struct kiln_scene *scene,
+                                    const struct kiln_sim_grids *grids);
+
 /* Returns whether the particles of a system leave traces, for the births of children or for
  * paint. */
 bool kiln_sim_is_traced(const struct kiln_scene *scene, uint32_t system);

@@ -9,6 +9,35 @@ vec4 look_texel(int first_row, int texel)
     return texelFetch(look_table, at, 0);
 }
 
+#ifdef LOOK_SOURCES
+
+#include "shared/source.h"
+
+layout(binding = KILN_UNIT_SOURCES) uniform usampler2D source_texels;
+
+uvec4 source_texel(int number)
+{
+    return texelFetch(source_texels, ivec2(number % SOURCE_ROW, number / SOURCE_ROW), 0);
+}
+
+/* Returns the colour of the place where a particle was born, as kiln_source_color does on the host.
+ * first: texel of the first of the source's cells. */
+vec3 source_color(int first, int cells, uint stream)
+{
+    uint turn = source_turn(stream, uint(cells));
+    uvec4 cell = source_texel(first + int(turn));
+    uint chosen = source_choose(stream, turn, uintBitsToFloat(cell.x), cell.y);
+    cell = source_texel(first + int(chosen));
+    uint number = cell.z;
+    if (cell.w > 1u)
+        number += source_color_of(source_spot_on_triangle(stream), cell.w);
+    uint color = source_texel(first + cells + int(number / 4u))[number % 4u];
+    return vec3(source_component(color, 0u), source_component(color, 1u),
+                source_component(color, 2u));
+}
+
+#endif
+
 /* A part of a value: its own curve, what multiplies it, or what is added to it. */
 struct look_part {
     uint clock, flags, draw;
@@ -29,11 +58,12 @@ look_part look_part_of(int first_row, int value, int part)
 /* Returns what a part's clock shows. */
 float look_clock(look_part part, value_clocks clocks)
 {
+    bool parent = (part.flags & LOOK_PART_PARENT) != 0u;
     switch (part.clock) {
     case KILN_CLOCK_LIFE:
-        return clocks.life;
+        return parent ? clocks.parent_life : clocks.life;
     case KILN_CLOCK_AGE:
-        return clocks.age_s;
+        return parent ? clocks.parent_age_s : clocks.age_s;
     case KILN_CLOCK_SPEED:
         return length(clocks.velocity);
     case KILN_CLOCK_HEIGHT:
@@ -41,7 +71,7 @@ float look_clock(look_part part, value_clocks clocks)
     case KILN_CLOCK_DISTANCE:
         return clocks.distance;
     case KILN_CLOCK_RANDOM:
-        return random_unit(clocks.stream, part.draw);
+        return random_unit(parent ? clocks.parent_stream : clocks.stream, part.draw);
     case KILN_CLOCK_NOISE:
         return value_noise_at(value_noise(random_bits(clocks.stream, part.draw), uint(part.count),
                                           exact_div(clocks.time_s, part.period_s)));
@@ -63,6 +93,14 @@ float look_repeat(look_part part, float x)
 /* Returns a part's components, or the same number for all. */
 vec4 look_part_at(look_part part, value_clocks clocks)
 {
+#ifdef LOOK_SOURCES
+    if (part.clock == LOOK_CLOCK_SOURCE) {
+        bool parent = (part.flags & LOOK_PART_PARENT) != 0u;
+        vec3 color =
+            source_color(part.row, part.count, parent ? clocks.parent_stream : clocks.stream);
+        return vec4(color, color.x);
+    }
+#endif
     float x = look_clock(part, clocks);
     if ((part.flags & (LOOK_PART_LOOPS | LOOK_PART_MIRRORS)) != 0u)
         x = look_repeat(part, x);

@@ -3,8 +3,10 @@
  * after shared/draw_layout.h. kiln_moment_bind (lib/draw/moment/moment_gl.c) binds the buffers, and
  * kiln_draw_blocks_bind binds view_block.
  *
- * The host defines LOOK_VALUES for a scene whose looks have values over other clocks than life, and
- * USES_CLOCKS (shared/value.h) for one whose lives are more than curves over time
+ * The host defines LOOK_VALUES for a scene whose looks have values over other clocks than life,
+ * LOOK_SOURCES for one whose particles have the colours of what they were born on, LOOK_PARENTS for
+ * one whose looks inherit some from parents, and USES_CLOCKS (shared/value.h) for one whose lives are
+ * more than curves over time
  * (kiln_moment_gl_defines). Other scenes get a shader that compiles faster.
  *
  * The n-th particle that is drawn is entries[n], which names its system and its slot in
@@ -65,6 +67,13 @@ void look_find(uint system, kiln_particle record, uint stream, float age, float 
     clocks.distance = length(position - view.eye.xyz);
     clocks.velocity = particle_velocity(record);
     clocks.stream = stream;
+#ifdef LOOK_PARENTS
+    uint4 values = looks[system].values;
+    if (LOOK_PARENT_SLOTS(values.w) != 0u)
+        clocks = particle_clocks_of_child(clocks, looks[LOOK_PARENT_SYSTEM(values.w)].derived,
+                                          records[LOOK_PARENT_RECORD(values, record.position_serial.w)],
+                                          record);
+#endif
     for (int row = 0; row < KILN_LOOK_ROWS; row++) {
         look_rows[row] = look_over_life(system, row, life);
         if (looks[system].values.x != 0u)

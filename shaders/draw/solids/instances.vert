@@ -13,6 +13,8 @@
 // variant:
 // variant: SPINS=1
 // variant: LOOK_VALUES=1
+// variant: LOOK_VALUES=1 LOOK_SOURCES=1
+// variant: LOOK_VALUES=1 LOOK_PARENTS=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 
@@ -74,7 +76,8 @@ void main()
      * between the samples of some frames. */
     float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
     float scale = max(size * extent.x, 0.5 * pixel_m) / extent.x;
-    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
+    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread,
+                                 particle_turned_s(record, age, view.clock.y));
     instance_axes axes = instance_axes_of(orient, particle_velocity(record), angle, stream);
 #ifdef SPINS
     if (looks[system].turn.w != 0u)

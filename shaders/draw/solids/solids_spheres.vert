@@ -6,6 +6,8 @@
 // variant: PATTERN=1
 // variant: PATTERN=1 SPINS=1
 // variant: PATTERN=1 LOOK_VALUES=1
+// variant: PATTERN=1 LOOK_VALUES=1 LOOK_SOURCES=1
+// variant: PATTERN=1 LOOK_VALUES=1 LOOK_PARENTS=1
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 
@@ -47,7 +49,8 @@ void main()
     second_albedo = look_at(system, KILN_LOOK_OTHER, life);
     second_albedo.a = turn.z == LOOK_STRIPE ? -1.0 : float(int(turn.z) - int(LOOK_SEGMENTS));
     second_albedo.a = turn.z == LOOK_PLAIN ? 0.0 : second_albedo.a;
-    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
+    float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread,
+                                 particle_turned_s(record, age, view.clock.y));
     ball_pose = instance_pose(stream, angle);
 #ifdef SPINS
     if (turn.x != 0u)

@@ -206,7 +206,7 @@ void make_billboard(uint entry)
     float angle = mix(turn.x, turn.y, random_unit(stream, RANDOM_ROTATION));
     float spin = mix(spread.z, spread.w, random_unit(stream, RANDOM_SPIN));
     float side = billboard_side(random_unit(stream, RANDOM_SPIN + 1u));
-    angle += spin * side * age;
+    angle += spin * side * particle_turned_s(record, age, view.clock.y);
 
     billboard_plane plane = billboard_plane_of_picture();
     uint4 form = looks[system].form;

@@ -9,6 +9,8 @@
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
 // variant: SHAPES=1 LOOK_VALUES=1
+// variant: SHAPES=1 LOOK_VALUES=1 LOOK_SOURCES=1
+// variant: SHAPES=1 LOOK_VALUES=1 LOOK_PARENTS=1
 // variant: SHAPES=1 HAZE=1
 #include "shared/draw_layout.h"
 

@@ -6,7 +6,12 @@
 #include "shared/limits.h"
 #include "shared/platform.h"
 
-#if defined(GRIDS) || defined(KEYS_STORED)
+#ifdef GRIDS_WRITTEN
+layout(std430, binding = SIM_BIND_GRIDS) buffer grid_block
+{
+    float4 grid_words[];
+};
+#elif defined(GRIDS) || defined(KEYS_STORED)
 layout(std430, binding = SIM_BIND_GRIDS) readonly buffer grid_block
 {
     float4 grid_words[];

@@ -4,6 +4,7 @@
 // variant:
 // variant: FAMILY=1
 // variant: GRIDS=1
+// variant: GRIDS=1 SOURCES=1
 // variant: GRIDS=1 FAMILY=1
 // variant: COLLIDE_RUB=1
 // variant: GRIDS=1 FAMILY=1 COLLIDE_RUB=1

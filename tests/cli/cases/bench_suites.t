@@ -26,7 +26,7 @@ $ for suite in figure4.4 groups bytes; do kiln bench $suite --quick --quiet --de
 1|5
 1|"groups"
 1|true
-1|6
+1|7
 1|"bytes"
 1|true
 1|11

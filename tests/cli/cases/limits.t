@@ -129,7 +129,10 @@ $ kiln help limits | sed -n '20,$p'
 1|parameters    256         Parameters.
 1|includes      64          Included files, through at most 8 files.
 1|copies        100000      Nodes that aliases, uses and parameters copy.
+1|ways          16777216    Steps of the ways of emitters by the metre, in all.
 1|winds         8           Files of wind.
+1|sources       2097152     Triangles, vertices and pixels that particles are born on.
+1|baked         8           Baked winds, of up to 12 forces each.
 1|steps         4194303     Steps of a run, warm-up included.
 1|
 1|Positions are 32-bit floats, so small steps far from the origin are rounded. Speeds are true to

@@ -191,6 +191,18 @@ $ many() { sed '/systems:/,/rain:/d; /lights:/d; s/96, 54/64, 36/; s/^simulation
 2|kiln: backdrop=gl: 256 objects and 48 lights take 66455 iterations a pixel; software GL runs at most 65535: use --technique backdrop=cpu, or fewer objects or lights
 = 5
 
+What particles are born on:
+
+$ printf 'kiln: 1\noutput: {size: [2048, 1024], frames: 1}\nbackdrop: {sky: {top: 1, horizon: 1}, floor: none}\n' >white.yaml
+> kiln render white.yaml -q -o at.png --device cpu; kiln render white.yaml -q --size 2048x1025 -o over.png --device cpu
+> printf 'kiln: 1\noutput: {size: [32, 18], frames: 2}\nsystems:\n  dots:\n    emit: {rate: 600, from: {image: {file: at.png, threshold: 0}}}\n    look: {shape: point, size: 3 cm, color: source}\n' >at.yaml
+> bin/states at.yaml; kiln check at.yaml --set systems.dots.emit.from.image.file=over.png
+> { cat at.yaml; echo '  more: {emit: {from: {path: {points: [[0, 0, 0], [1, 0, 0]]}}}}'; } >more.yaml; kiln check more.yaml
+1|  state        fa523aafc3b7fb35
+2|--set systems.dots.emit.from.image.file: 2099200 pixels of the image are above the threshold; a scene has at most 2097152
+2|more.yaml:7:30: systems.more.emit.from.path: triangles, vertices and pixels that particles are born on are 2097280 altogether; a scene has at most 2097152
+= 3
+
 Particles; OpenGL takes half as many. unit.sizes steps and draws them:
 
 $ printf 'kiln: 1\noutput: {size: [32, 18]}\nsystems:\n  dust: {emit: {bursts: {0 s: 33554432}}}\n' >dust.yaml

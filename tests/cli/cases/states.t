@@ -111,3 +111,25 @@ $ kiln plan scenes/tiny.yaml --tasks 0
 $ kiln plan scenes/tiny.yaml --frame 1000
 2|kiln: frame 1000: the scene has frames 0-23
 = 2
+
+A wind that is written every 7 steps is in a part of the clip what it is in the whole, wherever the part begins.
+
+$ cat >winds.yaml <<END
+> kiln: 1
+> output: {size: [64, 36], fps: 20, frames: 24}
+> simulation: {rate: 60}
+> nodes: {n: {position: {keys: {0 s: [0, 0, 0], 1 s: [1, 1, 0]}}}}
+> systems:
+>   a:
+>     emit: {rate: 300, life: 1 s, from: {box: {size: [2, 2, 2]}}}
+>     forces:
+>       - wind: {baked: {attach: n, box: {size: [4, 4, 4]}, cells: 9, every: 7, of: [
+>           curl: {strength: 3, drift: [2, 0, 0], pull: 5}, vortex: {attach: n, speed: 3}]}}
+> END
+$ kiln render winds.yaml -q -o whole_%02d.png && kiln render winds.yaml -q -o whole.apng
+$ kiln bake winds.yaml -q -o winds --every 5 && ls winds | wc -l
+1|4
+$ kiln render winds.yaml -q -o part_%02d.png --states winds --frames 11-14 --stats | grep steps
+1|  steps        12
+$ for i in 11 12 13 14; do cmp whole_$i.png part_$i.png; done
+$ for shard in 1/4 2/4 3/4 4/4; do kiln render winds.yaml -q -o whole_b.apng --states winds --shard $shard; done; kiln join -q whole_b.apng && cmp whole.apng whole_b.apng

@@ -71,3 +71,9 @@ $ printf 'kiln_test: 1\nscene: scenes/tiny.yaml\nframes: [3]\n' >fire.test.yaml;
 1|wrote golden/fire/expect.yaml
 $ f=golden/fire/frame_0003.png; head -c -12 $f >cut.png && mv cut.png $f && kiln test fire >/dev/null; cat out/test/fire/log.txt
 1|kiln: warning: golden/fire/frame_0003.png: its end is missing (chunk IEND)
+
+A node of a scene has one scale, and a node of a file may have three.
+
+$ echo '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "wide", "scale": [3, 1, 1]}]}' >scenes/wide.gltf
+$ kiln check scenes/tiny.yaml --set "nodes={a: {file: wide.gltf, node: wide}}" >/dev/null
+2|kiln: warning: --set nodes: nodes.a.node: the node of the file, or one above it, mirrors or has a scale that differs between its axes; a node of a scene has one scale, so the scale along z is taken

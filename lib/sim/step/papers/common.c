@@ -13,7 +13,7 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
     glGetIntegerv(fragment ? GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS
                            : GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS,
                   &blocks);
-    const GLint needed = (params->trace_count > 0) + (params->grids->count > 0) +
+    const GLint needed = (params->trace_count > 0) + (params->grids->words.size > 0) +
                          (params->grids->volumes.count > 0) + (params->push_count > 0) +
                          (params->spin_count > 0);
     if (blocks < needed)

@@ -1,10 +1,11 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 9 to 13): moves one particle and
- * writes it to the stream; dead particles are left out. A slot that a particle is born into in this
- * step is skipped, since feedback_emit.geom writes it. With FAMILY, children are born in this
- * shader, since each has a slot of its own. */
+ * writes it to the stream; dead particles are left out, but for what children need of their
+ * parents. A slot that a particle is born into in this step is skipped, since feedback_emit.geom
+ * writes it. With FAMILY, children are born in this shader, since each has a slot of its own. */
 // variant:
 // variant: FAMILY=1
 // variant: GRIDS=1
+// variant: GRIDS=1 SOURCES=1
 // variant: GRIDS=1 FAMILY=1
 // variant: COLLIDE_RUB=1
 // variant: GRIDS=1 FAMILY=1 COLLIDE_RUB=1
@@ -42,6 +43,6 @@ void main()
     if (particle_is_alive(p))
         p = step_particle(p, push_of(slot));
 #endif
-    if (particle_is_alive(p))
+    if (particle_is_there(p))
         write_particle(p);
 }

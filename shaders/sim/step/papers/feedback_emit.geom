@@ -5,6 +5,7 @@
 // variant:
 // variant: FAMILY=1
 // variant: GRIDS=1
+// variant: GRIDS=1 SOURCES=1
 // variant: GRIDS=1 FAMILY=1
 // variant: COLLIDE_RUB=1
 // variant: GRIDS=1 FAMILY=1 COLLIDE_RUB=1
@@ -38,7 +39,7 @@ void main()
         uint to_wrap = step_params.capacity - step_params.first_slot;
         uint slot = birth < to_wrap ? step_params.first_slot + birth : birth - to_wrap;
         kiln_particle p = slot_after(slot, step_dead());
-        if (particle_is_alive(p))
+        if (particle_is_there(p))
             write_particle(p);
     }
 }

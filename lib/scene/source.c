@@ -1,0 +1,330 @@
+/* This file makes the sources of a scene when it is read, and says what is wrong with them. Files
+ * are decoded by kiln-decode, whose counts are checked where its answers are received
+ * (asset/geometry/mesh_in.c, asset/image/received.c); this file computes all else from the checked
+ * arrays. */
+#include "scene/source.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "asset/geometry/closed.h"
+#include "base/budget.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "scene/asset_path.h"
+#include "scene/source_image.h"
+#include "scene/source_mesh.h"
+#include "scene/source_path.h"
+
+/* A system whose source is made. */
+struct making {
+    struct kiln_reader *reader;
+    const struct kiln_node *root;
+    struct kiln_scene *scene;
+    struct kiln_system *system;
+    struct kiln_source *source;
+    char path[128]; /* of the kind of `from`, for errors */
+};
+
+static bool refuse(const struct making *m, const char *key, const char *text)
+{
+    char path[192];
+    snprintf(path, sizeof path, "%s%s%s", m->path, *key ? "." : "", key);
+    return kiln_reader_error_at(m->reader, m->root, path, "%s", text);
+}
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+/* Finds the object that a source names: by its name, or by its number from 0. */
+static bool find_object(struct making *m)
+{
+    const struct kiln_backdrop *backdrop = &m->scene->backdrop;
+    struct kiln_emit_source *from = &m->system->emit.source;
+    double number;
+    uint32_t found = backdrop->object_count;
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        const char *name = backdrop->objects[i].name;
+        found = name && strcmp(name, from->object) == 0 ? i : found;
+    }
+    if (found == backdrop->object_count && kiln_text_to_double(from->object, &number) &&
+        number >= 0 && number < backdrop->object_count)
+        found = (uint32_t)number;
+    if (found == backdrop->object_count)
+        return refuse(m, "object", "no object of the backdrop has this name or number");
+    if (backdrop->objects[found].kind != KILN_OBJECT_MESH)
+        return refuse(m, "object", "must be a mesh; the object is of another kind");
+    if (backdrop->objects[found].animation.enabled && from->on != KILN_ON_SURFACE)
+        return refuse(m, "on", "must be surface for a mesh with an animation");
+    if (m->system->emit.parent.enabled)
+        return refuse(m, "object",
+                      "must be none for a system with a parent, around whose "
+                      "particles its own are born");
+    if (m->system->emit.attach.name)
+        return refuse(m, "object", "must be none where the emitter is attached to a node");
+    from->of_object = true;
+    from->number = found;
+    return true;
+}
+
+static bool fill_volume(struct making *m, const struct kiln_mesh *mesh, const float rotation[3][3],
+                        float scale, const char *file)
+{
+    struct kiln_emit_source *from = &m->system->emit.source;
+    struct kiln_error error = {0};
+    char path[192];
+    snprintf(path, sizeof path, "%s.%s", m->path, from->of_object ? "object" : "file");
+    if (!kiln_mesh_check_closed(mesh, file, &error))
+        return kiln_asset_fail(m->reader, m->root, path, file, &error);
+    bool fits = true;
+    if (!kiln_source_fill_volume(m->scene->arena, mesh, rotation, scale, m->source, &from->edge,
+                                 &fits))
+        return fits ? kiln_reader_out_of_memory(m->reader)
+                    : refuse(m, from->of_object ? "object" : "file",
+                             "too many triangles of the mesh lie above one another for a volume");
+    return m->source->cells > 0 ||
+           refuse(m, from->of_object ? "object" : "file",
+                  "the mesh has no volume, so no particle can be born in it");
+}
+
+/* Fills the cells of a mesh. looks: the same mesh with its materials; `mesh` is another one where
+ * it has an animation. */
+static bool fill_mesh(struct making *m, const struct kiln_mesh *mesh, const struct kiln_mesh *looks,
+                      const char *file)
+{
+    const struct kiln_emit_source *from = &m->system->emit.source;
+    const struct kiln_value3 *angles = &from->rotation;
+    const float3 none = {0.0f, 0.0f, 0.0f};
+    const float3 turned = {angles->x.constant, angles->y.constant, angles->z.constant};
+    const float scale = from->of_object ? 1.0f : (float)from->scale;
+    float rotation[3][3];
+    bool has_area = true;
+    kiln_scene_rotation(from->of_object ? none : turned, rotation);
+    if (from->on == KILN_ON_VOLUME)
+        return fill_volume(m, mesh, (const float(*)[3])rotation, scale, file);
+    if (!kiln_source_fill_mesh(m->scene->arena, mesh, from->on, (const float(*)[3])rotation, scale,
+                               mesh != looks, m->source, &has_area))
+        return has_area ? kiln_reader_out_of_memory(m->reader)
+                        : refuse(m, from->of_object ? "object" : "file",
+                                 "the mesh has no area, so no particle can be born on it");
+    struct kiln_error error = {0};
+    if (!kiln_look_color_is_source(&m->system->look))
+        return true;
+    if (looks->triangle_count != mesh->triangle_count)
+        return refuse(m, "object",
+                      "the mesh has other triangles with its animation than without, "
+                      "so it has no colours for look.color");
+    if (!kiln_source_color_mesh(m->scene, looks, file, from->on, m->source, &error)) {
+        char path[192];
+        snprintf(path, sizeof path, "%s.%s", m->path, from->of_object ? "object" : "file");
+        return kiln_asset_fail(m->reader, m->root, path, file, &error);
+    }
+    return true;
+}
+
+static bool settle_mesh(struct making *m)
+{
+    struct kiln_emit_source *from = &m->system->emit.source;
+    if (!from->file == !from->object)
+        return refuse(m, "", "must have one of `file` and `object`");
+    if (from->object && !find_object(m))
+        return false;
+    const char *file = from->object ? m->scene->backdrop.objects[from->number].file : from->file;
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh = kiln_mesh_load_with_materials(m->scene->loader, file, &error);
+    bool ok = mesh && kiln_budget_take(kiln_loader_budget(m->scene->loader), KILN_LIMIT_triangles,
+                                       mesh->triangle_count, file, &error);
+    if (!ok) {
+        char path[192];
+        snprintf(path, sizeof path, "%s.%s", m->path, from->object ? "object" : "file");
+        kiln_asset_fail(m->reader, m->root, path, file, &error);
+    }
+    const struct kiln_object *object =
+        from->of_object ? &m->scene->backdrop.objects[from->number] : NULL;
+    const bool posed = object && object->animation.enabled;
+    ok = ok && fill_mesh(m, posed ? object->shown : mesh, mesh, file);
+    if (ok)
+        m->source->making += kiln_mesh_bytes(mesh);
+    kiln_mesh_destroy(&mesh);
+    return ok;
+}
+
+/* ---- images ---------------------------------------------------------------------------------- */
+
+static bool settle_image(struct making *m)
+{
+    struct kiln_emit_source *from = &m->system->emit.source;
+    struct kiln_error error = {0};
+    char path[192], text[160];
+    if (!from->file)
+        return refuse(m, "file", "must name an image file");
+    struct kiln_asset_image *image = kiln_asset_image_load(m->scene->loader, from->file, &error);
+    snprintf(path, sizeof path, "%s.file", m->path);
+    if (!image)
+        return kiln_asset_fail(m->reader, m->root, path, from->file, &error);
+    const uint32_t count = kiln_source_count_pixels(image, from->threshold);
+    bool ok = count > 0 && count <= KILN_MAX_SOURCE_CELLS;
+    if (count == 0)
+        refuse(m, "threshold", "no pixel of the image is above the threshold");
+    snprintf(text, sizeof text,
+             "%" PRIu32 " pixels of the image are above the threshold; a scene has at most %d",
+             count, KILN_MAX_SOURCE_CELLS);
+    if (count > KILN_MAX_SOURCE_CELLS)
+        refuse(m, "file", text);
+    from->edge = (float)(from->width / image->width);
+    if (ok &&
+        !kiln_source_fill_image(m->scene->arena, image, from->threshold, from->width,
+                                kiln_look_color_is_source(&m->system->look), count, m->source))
+        ok = kiln_reader_out_of_memory(m->reader);
+    kiln_asset_image_destroy(&image);
+    return ok;
+}
+
+/* ---- paths ----------------------------------------------------------------------------------- */
+
+static bool settle_path(struct making *m)
+{
+    struct kiln_path *curve = &m->system->emit.source.path;
+    const uint32_t count = curve->points.count;
+    if (curve->closed && count < 3)
+        return refuse(m, "points", "a closed path has 3 points at least");
+    if (curve->closed &&
+        memcmp(curve->points.at[0], curve->points.at[count - 1], sizeof *curve->points.at) == 0)
+        return refuse(m, "points",
+                      "the last point must not be the first; a closed path goes on to the first by "
+                      "itself");
+    return kiln_source_fill_path(m->scene->arena, curve, m->source) ||
+           kiln_reader_out_of_memory(m->reader);
+}
+
+/* ---- all sources ----------------------------------------------------------------------------- */
+
+static const char *name_of(enum kiln_emitter_shape shape)
+{
+    switch (shape) {
+    case KILN_EMITTER_MESH:
+        return "mesh";
+    case KILN_EMITTER_IMAGE:
+        return "image";
+    case KILN_EMITTER_PATH:
+        return "path";
+    default:
+        return NULL;
+    }
+}
+
+static bool settle_system(struct making *m)
+{
+    struct kiln_emitter *emit = &m->system->emit;
+    const char *name = name_of(emit->shape);
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.look.color", m->system->name);
+    if (kiln_look_color_is_source(&m->system->look)) {
+        if (!name || emit->shape == KILN_EMITTER_PATH)
+            return kiln_reader_error_at(m->reader, m->root, path,
+                                        "source needs an emit.from that is a mesh or an image");
+        if (emit->shape == KILN_EMITTER_MESH && emit->source.on == KILN_ON_VOLUME)
+            return kiln_reader_error_at(m->reader, m->root, path,
+                                        "cannot be source in a volume, which has no colours");
+        if (m->system->paint.enabled)
+            return kiln_reader_error_at(m->reader, m->root, path,
+                                        "cannot be source, since the system paints with it");
+    }
+    if (!name)
+        return true;
+    snprintf(m->path, sizeof m->path, "systems.%s.emit.from.%s", m->system->name, name);
+    m->source = kiln_arena_alloc(m->scene->arena, 1, sizeof *m->source);
+    if (!m->source)
+        return kiln_reader_out_of_memory(m->reader);
+    emit->source.made = m->source;
+    if (emit->shape == KILN_EMITTER_MESH)
+        return settle_mesh(m);
+    return emit->shape == KILN_EMITTER_IMAGE ? settle_image(m) : settle_path(m);
+}
+
+bool kiln_sources_settle(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    uint64_t cells = 0;
+    uint32_t texels = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        struct making m = {.reader = reader, .root = root, .scene = scene};
+        m.system = &scene->systems[i];
+        if (!m.system->enabled)
+            continue;
+        if (!settle_system(&m))
+            return false;
+        if (!m.source)
+            continue;
+        cells += m.source->cells;
+        m.source->first_texel = texels;
+        texels += m.source->texel_count;
+        if (cells > KILN_MAX_SOURCE_CELLS)
+            return kiln_reader_error_at(reader, root, m.path,
+                                        "triangles, vertices and pixels that particles are born on "
+                                        "are %" PRIu64 " altogether; a scene has at most %d",
+                                        cells, KILN_MAX_SOURCE_CELLS);
+    }
+    return true;
+}
+
+bool kiln_sources_add_hashes(const struct kiln_scene *scene, bool motion, struct kiln_text *text,
+                             struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_emit_source *from = &scene->systems[i].emit.source;
+        const struct kiln_source *source = from->made;
+        char hex[65];
+        if (!source)
+            continue;
+        if (*source->hash)
+            kiln_text_add(text, "%s read %d\n", source->hash, KILN_MESH_READER_VERSION);
+        else if (from->file && !kiln_asset_add_hash(scene, from->file, text, error))
+            return false;
+        if (motion || !source->texels)
+            continue;
+        kiln_hash_sha256(source->texels, source->texel_count * sizeof *source->texels, hex);
+        kiln_text_add(text, "%s\n", hex);
+    }
+    return true;
+}
+
+bool kiln_object_is_source(const struct kiln_scene *scene, const struct kiln_object *object)
+{
+    bool found = false;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_emit_source *from = &scene->systems[i].emit.source;
+        found = found || (from->of_object && object == &scene->backdrop.objects[from->number]);
+    }
+    return found;
+}
+
+uint64_t kiln_sources_words(const struct kiln_scene *scene)
+{
+    uint64_t words = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        words += source ? source->word_count : 0;
+    }
+    return words;
+}
+
+uint64_t kiln_sources_texels(const struct kiln_scene *scene)
+{
+    uint64_t texels = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        texels += source ? source->texel_count : 0;
+    }
+    return texels;
+}
+
+uint64_t kiln_sources_making(const struct kiln_scene *scene)
+{
+    uint64_t most = 0;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_source *source = scene->systems[i].emit.source.made;
+        most = source && source->making > most ? source->making : most;
+    }
+    return most;
+}
