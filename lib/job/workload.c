@@ -212,10 +212,7 @@ static double pixels_of(const struct kiln_workload *w, const struct kiln_system 
                         float time_s)
 {
     const struct kiln_scene *scene = w->scene;
-    const struct kiln_camera_stand stand = kiln_scene_camera_at(scene, time_s);
-    const float3 eye = stand.eye, target = stand.target;
-    const double away = hypot(hypot((double)(eye.x - target.x), (double)(eye.y - target.y)),
-                              (double)(eye.z - target.z));
+    const double away = (double)kiln_scene_camera_at(scene, time_s).distance;
     const double half = tan(0.5 * (double)kiln_scene_value(scene, &scene->camera.fov, time_s));
     const double per_metre = 0.5 * scene->height / (half * fmax(away, 1e-3));
     const struct kiln_parent *parent = &system->emit.parent;

@@ -68,7 +68,8 @@ bool kiln_read_plain(struct kiln_reader *reader, const struct kiln_option *optio
 /* ---- mappings ------------------------------------------------------------------------------- */
 
 /* Returns the number of a draw: of the row, the entry of a list, the component of a vector that
- * varies in each component, and the part of the value; or one that the file gives. */
+ * varies in each component, and the part of the value; or one that the file gives. A row's number
+ * is below 128, so that the bit above it is free for the entries of a list from the 129th on. */
 static uint32_t draw_of(const struct kiln_reader *reader, const struct kiln_curve *curve,
                         unsigned component, unsigned part, const uint32_t *seed)
 {
@@ -77,7 +78,8 @@ static uint32_t draw_of(const struct kiln_reader *reader, const struct kiln_curv
         return 0;
     if (seed)
         return 1u << (VALUE_DRAW_BITS - 1) | *seed;
-    return (curve->option->draws & 255u) << 11 | (reader->item & 127u) << 4 | component << 2 | part;
+    const uint32_t item = (reader->item & 128u) << 11 | (reader->item & 127u) << 4;
+    return (curve->option->draws & 127u) << 11 | item | component << 2 | part;
 }
 
 /* The entries of a mapping that is a value. */

@@ -88,6 +88,16 @@ static const struct kiln_node *find_part(const struct kiln_node *node, const cha
     return found;
 }
 
+/* Returns the one entry of a mapping that is an entry of a list: an entry of kinds has one key, and
+ * a kind may have several names. *name then becomes the one that the file has. */
+static const struct kiln_node *find_other_name(const struct kiln_node *node, const char **name)
+{
+    if (node->kind != KILN_NODE_MAP || node->count != 1)
+        return NULL;
+    *name = node->first->key->text;
+    return node->first;
+}
+
 /* Returns the entry of a mapping that has the name a level deeper: a path names `wind.cells` also
  * where the file has `wind: {baked: {cells: 32}}`. Otherwise returns NULL. */
 static const struct kiln_node *find_between(const struct kiln_node *node, const char *name)
@@ -106,6 +116,7 @@ static void set_error_at(struct kiln_reader *reader, const struct kiln_node *roo
     char message[KILN_MESSAGE_SIZE], part[64];
     vsnprintf(message, sizeof message, format, args);
     const struct kiln_node *node = root;
+    bool is_numbered = false;
     kiln_reader_leave(reader, 0);
     while (*path) {
         size_t length = strcspn(path, ".");
@@ -117,8 +128,11 @@ static void set_error_at(struct kiln_reader *reader, const struct kiln_node *roo
             node = between;
         }
         const struct kiln_node *next = find_part(node, &name);
+        if (!next && is_numbered)
+            next = find_other_name(node, &name);
         if (!next)
             break;
+        is_numbered = part[strspn(part, "0123456789")] == '\0';
         node = next;
         kiln_reader_enter(reader, name);
         path += length + (path[length] == '.');

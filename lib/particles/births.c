@@ -92,10 +92,11 @@ static void add_burst(const struct kiln_births_source *source, uint32_t i, uint3
     double start = ((double)step - 1.0) * 64.0;
     if (!(parts >= start && parts < start + 64.0))
         return;
+    const uint32_t count = count_of(burst, stream, purpose);
     if (births->group_count - births->steady_groups == KILN_MAX_BURSTS)
-        births->left_out = true;
+        births->left_out |= count > 0;
     else
-        add_group(births, (struct kiln_birth_group){.count = count_of(burst, stream, purpose),
+        add_group(births, (struct kiln_birth_group){.count = count,
                                                     .first = (uint32_t)(parts - start) << 26,
                                                     .kind = BIRTHS_BURST});
 }

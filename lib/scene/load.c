@@ -18,8 +18,10 @@
 #include "base/sized.h"
 #include "scene/asset_path.h"
 #include "scene/baked.h"
+#include "scene/fast_nodes.h"
 #include "scene/light_notes.h"
 #include "scene/mesh_notes.h"
+#include "scene/node_cache.h"
 #include "scene/parts.h"
 #include "scene/place.h"
 #include "scene/resolve.h"
@@ -130,7 +132,12 @@ static bool build(struct kiln_reader *reader, const char *text,
     if (!kiln_validate(reader, root) || !kiln_work_check(reader, root, estimate) ||
         !take_hash(scene, reader->error) || !kiln_budget_is_kept(scene->budget, reader->error))
         return false;
+    /* No frame may be remembered before all that it depends on is read. */
+    if (scene->node_count > 0 &&
+        !(scene->node_cache = kiln_node_cache_create(reader->arena, scene->node_count)))
+        return kiln_reader_out_of_memory(reader);
     kiln_small_steps_warn(reader, root);
+    kiln_fast_nodes_warn(reader, root);
     kiln_light_notes_warn(reader, root);
     kiln_mesh_notes_warn(reader, root, &params->log);
     return true;

@@ -1,5 +1,5 @@
 /* Declares nodes: places in a scene that move and turn, to which emitters, objects, lights and the
- * camera are attached. What is attached lies in the node's frame: x is right, y up and z ahead.
+ * camera are attached. What is attached lies in the node's frame: z is ahead, y up and x left.
  *
  * A pose at a time is exact: it does not depend on the steps of a simulation. It is computed in
  * IEEE doubles from values of the scene and from paths, so every machine gets the same bits. */
@@ -84,6 +84,25 @@ struct kiln_node_frame kiln_object_frame_at(const struct kiln_scene *scene,
                                             const struct kiln_object *object, float time_s,
                                             float rate_s);
 
+/* The frames of a node at both ends of a step. */
+struct kiln_node_step {
+    struct kiln_node_frame start, end;
+    /* The end of a node that does not jump: where the place, the rotation or the scale of the node,
+     * or of one of its parents, jumps within the step, that part goes on as before in its parent's
+     * frame. Without a jump, this is `end`. */
+    struct kiln_node_frame on;
+    bool jumps;
+};
+
+/* Returns the frames of a node at both ends of a step, from 1. The rates at the end are those just
+ * before. */
+struct kiln_node_step kiln_node_step_at(const struct kiln_scene *scene, uint32_t node,
+                                        uint32_t step);
+
+/* Returns those of an object of the backdrop that is a mesh. */
+struct kiln_node_step kiln_object_step_at(const struct kiln_scene *scene,
+                                          const struct kiln_object *object, uint32_t step);
+
 /* Returns the quaternion of the rotation about x, then y, then z, by angles in radians. */
 void kiln_node_turn_of_angles(float3 angles, double turn[4]);
 
@@ -129,13 +148,15 @@ float kiln_object_length(const struct kiln_scene *scene, const struct kiln_objec
 void kiln_object_rotation(const struct kiln_scene *scene, const struct kiln_object *object,
                           float time_s, float columns[3][3]);
 
-/* Below this square of the distance from the eye to the target, m^2, the camera looks along -z. */
+/* Below this square of the way from the eye to the target, the camera looks along -z. */
 #define KILN_CAMERA_NO_WAY 1e-12f
 
 /* Where the camera is and what it looks at, in the world. */
 struct kiln_camera_stand {
-    float3 eye, target; /* m */
-    float3 up;          /* unit vector, of which the part across the line of sight counts */
+    float3 eye; /* m */
+    float3 way; /* the direction from the eye to the target, as long as the way in its node is */
+    float distance; /* from the eye to the target, m */
+    float3 up;      /* unit vector, of which the part across the line of sight counts */
 };
 
 struct kiln_camera_stand kiln_scene_camera_at(const struct kiln_scene *scene, float time_s);

@@ -31,6 +31,18 @@ static bool find_node(struct kiln_reader *reader, const struct kiln_node *root, 
     return kiln_reader_error_at(reader, root, path, "unknown node '%s'%s", quoted, suggestion);
 }
 
+/* Refuses a node that no attached part could name. */
+static bool check_names(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (strcmp(scene->nodes[i].name, "none") == 0)
+            return kiln_reader_error_at(reader, root, "nodes.none",
+                                        "must have another name, since none stands for no node");
+    }
+    return true;
+}
+
 static bool find_parents(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -86,10 +98,15 @@ static bool settle_path(struct kiln_reader *reader, const struct kiln_node *root
                kiln_reader_error_at(reader, root, path, "needs a position that is a path");
     }
     snprintf(path, sizeof path, "nodes.%s.position.path.over", node->name);
-    if (!(curve->over.min.constant < curve->over.max.constant))
+    if (!(curve->over.min.constant < curve->over.max.constant)) {
+        char first[48], last[48];
+        kiln_unit_print(first, KILN_SECONDS, curve->over.min.constant);
+        kiln_unit_print(last, KILN_SECONDS, curve->over.max.constant);
         return kiln_reader_error_at(reader, root, path,
                                     "expected two times, [first, last], of which the second is the "
-                                    "later one");
+                                    "later one, found %s and %s",
+                                    first, last);
+    }
     snprintf(path, sizeof path, "nodes.%s.position.path.points", node->name);
     if (curve->closed && count < 3)
         return kiln_reader_error_at(reader, root, path,
@@ -194,6 +211,18 @@ static bool find_systems(struct kiln_reader *reader, const struct kiln_node *roo
     return true;
 }
 
+/* Checks that a camera that looks ahead in its node, at nothing, knows where it is in focus. */
+static bool check_focus(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_value *focus = &scene->camera.focus;
+    const bool by_target = focus->count == 0 && focus->constant == KILN_VALUE_BY_WORD;
+    return !by_target || !(kiln_scene_value_max(scene, &scene->camera.aperture) > 0.0f) ||
+           kiln_reader_error_at(reader, root, "camera.focus",
+                                "must be a distance, such as 5 m, where a camera with an aperture "
+                                "has no target in its node");
+}
+
 /* Puts a camera that says no more than its node into that node, and lets it look along z. A camera
  * of a file looks along -z. */
 static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *root)
@@ -216,6 +245,8 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
         return kiln_reader_error_at(reader, root, "camera.position",
                                     "varies within a node, so the camera needs a target, too");
     if (!aimed) {
+        if (!check_focus(reader, root))
+            return false;
         camera->target = camera->position;
         camera->target.z.constant += is_of_file ? -1 : 1;
     }
@@ -225,8 +256,8 @@ static bool settle_camera(struct kiln_reader *reader, const struct kiln_node *ro
 bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
-    bool ok = kiln_node_rigs_find_objects(reader, root) && find_parents(reader, root) &&
-              find_backdrop(reader, root);
+    bool ok = check_names(reader, root) && kiln_node_rigs_find_objects(reader, root) &&
+              find_parents(reader, root) && find_backdrop(reader, root);
     for (uint32_t i = 0; ok && i < scene->node_count; i++)
         ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
     return ok && kiln_node_rigs_settle(reader, root) && settle_camera(reader, root) &&

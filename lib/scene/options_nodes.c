@@ -65,7 +65,8 @@ PUBLIC_TABLE(kiln_options_node) = {
            "[0, 0, 0]", "Angles about x, then y, then z; with a heading, within it."),
     CHOICE(OF_NODE, "heading", heading, headings, "fixed",
            "`path` turns the node along the path of its position. Its y is up at the first point, "
-           "and is carried along the path without roll."),
+           "or -z with `ahead: y` and z with `ahead: -y`. It is carried along the path without "
+           "roll."),
     CHOICE(OF_NODE, "ahead", ahead, aheads, "z", "The axis that `heading: path` turns ahead."),
     VALUE(OF_NODE, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME(72), "1",
           "Factor on places and sizes of what lies in the node."),

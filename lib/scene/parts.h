@@ -38,6 +38,7 @@ unsigned kiln_row_if_not_certain(const void *scene, const void *collide);
 
 /* Returns the bits of all parts if deaths of parents at impacts count, and otherwise 0. */
 unsigned kiln_row_if_impacts_count(const void *scene, const void *emit);
+
 /* Returns the bits of all parts if the births of bursts are in order, and otherwise 0. */
 unsigned kiln_row_if_ordered(const void *scene, const void *emit);
 

@@ -12,6 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/double3.h"
+
 enum { PIECES = 8, ROUNDS = 5 };
 
 struct piece {
@@ -31,11 +33,6 @@ struct kiln_path_table {
 
 /* ---- vectors --------------------------------------------------------------------------------- */
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static void add_scaled(double y[3], const double a[3], double factor)
 {
     for (int c = 0; c < 3; c++)
@@ -48,17 +45,10 @@ static void subtract(double y[3], const double a[3], const double b[3])
         y[c] = a[c] - b[c];
 }
 
-static void cross(double y[3], const double a[3], const double b[3])
-{
-    y[0] = a[1] * b[2] - a[2] * b[1];
-    y[1] = a[2] * b[0] - a[0] * b[2];
-    y[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Makes a vector a unit vector; false, and no change, if it has no length. */
 static bool make_unit(double a[3])
 {
-    const double length = sqrt(dot(a, a));
+    const double length = sqrt(double3_dot(a, a));
     if (!(length > 1e-12))
         return false;
     for (int c = 0; c < 3; c++)
@@ -69,12 +59,12 @@ static bool make_unit(double a[3])
 /* Makes `up` a unit vector across the unit vector `ahead`. */
 static void make_across(double up[3], const double ahead[3])
 {
-    add_scaled(up, ahead, -dot(up, ahead));
+    add_scaled(up, ahead, -double3_dot(up, ahead));
     if (make_unit(up))
         return;
     const double other[3] = {0, fabs(ahead[1]) < 0.9 ? 1 : 0, fabs(ahead[1]) < 0.9 ? 0 : 1};
     memcpy(up, other, sizeof other);
-    add_scaled(up, ahead, -dot(up, ahead));
+    add_scaled(up, ahead, -double3_dot(up, ahead));
     make_unit(up);
 }
 
@@ -99,7 +89,7 @@ static double cubic_speed(const struct cubic *cubic, double u)
 {
     double rate[3];
     cubic_rate(cubic, u, rate);
-    return sqrt(dot(rate, rate));
+    return sqrt(double3_dot(rate, rate));
 }
 
 /* Returns the length of a cubic from u = from to u = to. */
@@ -151,7 +141,7 @@ static double knot_between(const double a[3], const double b[3])
 {
     double way[3];
     subtract(way, b, a);
-    return sqrt(sqrt(dot(way, way)));
+    return sqrt(sqrt(double3_dot(way, way)));
 }
 
 /* Computes the velocity at point b of the curve through a, b and c, for the parameter's distances
@@ -198,9 +188,9 @@ static void first_up(const double ahead[3], double up[3])
 /* Reflects a vector at the plane through the origin across another vector. */
 static void reflect(double y[3], const double across[3])
 {
-    const double square = dot(across, across);
+    const double square = double3_dot(across, across);
     if (square > 0)
-        add_scaled(y, across, -2 * dot(across, y) / square);
+        add_scaled(y, across, -2 * double3_dot(across, y) / square);
 }
 
 /* Carries up from the start of a piece to a place on it. */
@@ -349,12 +339,13 @@ struct kiln_path_place kiln_path_at(const struct kiln_path *path, float time_s, 
     carry_up(&table->pieces[piece], place.at, place.ahead, place.up);
     /* `ahead` turns about the axis ahead x bend by |bend across ahead| / |rate| for each u */
     cubic_rate(cubic, u, rate);
-    const double speed = sqrt(dot(rate, rate)), u_per_s = speed > 1e-9 ? metres_per_s / speed : 0;
+    const double speed = sqrt(double3_dot(rate, rate)),
+                 u_per_s = speed > 1e-9 ? metres_per_s / speed : 0;
     for (int c = 0; c < 3; c++) {
         bend[c] = 2 * cubic->terms[2][c] + u * 6 * cubic->terms[3][c];
         place.velocity[c] = place.ahead[c] * metres_per_s;
     }
-    cross(turn, place.ahead, bend);
+    double3_cross(turn, place.ahead, bend);
     for (int c = 0; c < 3; c++)
         place.spin[c] = speed > 1e-9 ? turn[c] / speed * u_per_s : 0;
     return place;

@@ -12,6 +12,7 @@
 
 #include "asset/loader/loader.h"
 #include "base/matrix.h"
+#include "scene/node_cache.h"
 #include "scene/scene_births.h"
 #include "scene/work.h"
 #include "shared/exact.h"
@@ -251,6 +252,7 @@ void kiln_scene_destroy(struct kiln_scene **scene)
         return;
     kiln_mesh_library_destroy(&s->meshes);
     kiln_loader_destroy(&s->loader);
+    kiln_node_cache_finish(s->node_cache);
     kiln_arena_destroy(&s->tree_arena);
     kiln_arena_destroy(&s->arena);
     kiln_handle_free(&s->handle, sizeof *s);

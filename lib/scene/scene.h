@@ -243,6 +243,7 @@ struct kiln_scene {
 
     struct kiln_scene_node nodes[KILN_MAX_NODES];
     uint32_t node_count;
+    struct kiln_node_cache *node_cache; /* remembers frames; NULL: there are no nodes, or not yet */
     struct kiln_camera camera;
     struct kiln_backdrop backdrop;
     struct kiln_system systems[KILN_MAX_SYSTEMS];

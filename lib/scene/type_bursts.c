@@ -45,16 +45,19 @@ static bool check_repetitions(struct kiln_reader *reader, const struct kiln_node
     kiln_unit_print_double(jitter, KILN_SECONDS, burst->jitter_s);
     if (burst->every_s == 0.0)
         return true;
-    if (burst->every_s < SHORTEST_S)
-        return kiln_reader_error(reader, node,
-                                 "`every` is %s; it must be 0 s, for a burst that is not repeated, "
-                                 "or at least 0.001 s",
+    const bool rare = burst->every_s >= SHORTEST_S;
+    if (rare && burst->jitter_s <= burst->every_s)
+        return true;
+    const char *key = rare ? "jitter" : "every";
+    const struct kiln_node *at = kiln_node_entry(node, key);
+    kiln_reader_enter(reader, key);
+    if (!rare)
+        return kiln_reader_error(reader, at ? at : node,
+                                 "must be 0 s, for a burst that is not repeated, or at least 0.001 "
+                                 "s; found %s",
                                  every);
-    return burst->jitter_s <= burst->every_s ||
-           kiln_reader_error(reader, node,
-                             "the jitter of a burst that is repeated every %s must be at most "
-                             "that; it is %s",
-                             every, jitter);
+    return kiln_reader_error(reader, at ? at : node, "must be at most `every`, %s; found %s", every,
+                             jitter);
 }
 
 static bool read_bursts(struct kiln_reader *reader, const struct kiln_option *option,

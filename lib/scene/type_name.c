@@ -2,8 +2,7 @@
  * it: a system, an object, a clip, a node. */
 #include "scene/options.h"
 
-/* ---- name: its system is looked up when all systems are read
- * ---------------------------------- */
+/* ---- name: its system is found when all systems are read ------------------------------------- */
 
 static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
@@ -31,8 +30,7 @@ const struct kiln_option_type kiln_type_name = {
     .schema = schema_name,
 };
 
-/* ---- object: it is looked up when all objects are read ----------------------------------------
- */
+/* ---- object: it is found when all objects are read ------------------------------------------- */
 
 static bool read_object(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
@@ -74,8 +72,7 @@ const struct kiln_option_type kiln_type_object = {
     .schema = schema_object,
 };
 
-/* ---- clip: it is looked up when the mesh file is read
- * ------------------------------------------ */
+/* ---- clip: it is found when the mesh file is read -------------------------------------------- */
 
 static bool read_clip(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)

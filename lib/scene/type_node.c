@@ -147,6 +147,11 @@ static bool read_place(struct kiln_reader *reader, const struct kiln_option *opt
     *position = (struct kiln_node_position){.path = {.points = {.count = 0}}};
     if (node->kind == KILN_NODE_MAP && kiln_node_entry(node, option->members->name))
         return kiln_read_members(reader, option->members, node, position);
+    if (node->kind == KILN_NODE_MAP && kiln_node_entry(node, "points"))
+        return kiln_reader_error(reader, node,
+                                 "a curve through points is written {%s: {points: "
+                                 "[...], over: [...]}}",
+                                 option->members->name);
     return kiln_type_vector.read(reader, option, node, &position->value);
 }
 

@@ -13,6 +13,7 @@
 #include "scene/baked.h"
 #include "scene/emit_way.h"
 #include "scene/family.h"
+#include "scene/impacts.h"
 #include "scene/instant.h"
 #include "scene/look_defaults.h"
 #include "scene/motion_layout.h"
@@ -295,7 +296,7 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Checks that a force that acts in a region has one. */
+/* Checks that each region of a force has one shape. */
 static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
                           const struct kiln_system *system)
 {
@@ -318,6 +319,8 @@ static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *r
     const bool stops = collide->then >= KILN_THEN_STOP;
     const char *word = collide->then == KILN_THEN_STICK ? "stick" : "stop";
     char path[128];
+    if (!kiln_impacts_agree(reader, root, system))
+        return false;
     snprintf(path, sizeof path, "systems.%s.collide.then", system->name);
     if (collide->dies && stops)
         return kiln_reader_error_at(reader, root, path, "must not be %s where `dies` is true",

@@ -238,6 +238,13 @@ static void a_crowded_step_is_found(void **state)
     assert_int_equal(kiln_births_bound(&source, 20, 1).total, 1200 + 64);
     burst.most = 65;
     assert_int_equal(kiln_births_bound(&source, 20, 1).crowded, 2);
+    /* bursts of no particles take no room */
+    struct kiln_burst both[2] = {burst, burst};
+    both[0].most = 64;
+    both[1].count[0] = both[1].count[1] = 0;
+    source.bursts = both;
+    source.burst_count = 2;
+    assert_int_equal(kiln_births_bound(&source, 20, 1).crowded, 0);
 }
 
 static void senseless_rates_give_no_births(void **state)

@@ -1,11 +1,15 @@
-/* Rows whose values may be random or a noise have numbers of their own, by which they draw. If this
- * fails, two rows of a scene would draw the same numbers. */
+/* Rows whose values may be random or a noise have numbers of their own, by which they draw, and so
+ * have the entries of a list. If this fails, two rows or two nodes of a scene would draw the same
+ * numbers. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/options.h"
+#include "scene/scene.h"
 #include "support/cmocka.h"
+#include "support/scenes.h"
 
-enum { MOST = 256 };
+enum { MOST = 128 }; /* the next bit of a draw is one of a list's entry (option/animated.c) */
 
 /* The rows that have each number, in systems or outside of them. */
 struct numbers {
@@ -64,10 +68,54 @@ static void no_number_is_used_twice(void **state)
     assert_true(inside.count > 80 && outside.count > 60);
 }
 
+/* Returns a scene with as many nodes as there may be, or as many spheres, each with a noise. */
+static struct kiln_scene *scene_of_noises(const char *head, const char *entry, const char *tail,
+                                          uint32_t count)
+{
+    static const char noise[] = "{noise: [[-1, -1, -1], [1, 1, 1]]}";
+    const size_t size = 64 + count * (strlen(entry) + sizeof noise + 16);
+    char *text = malloc(size);
+    assert_non_null(text);
+    size_t length = (size_t)snprintf(text, size, "kiln: 1\n%s", head);
+    for (uint32_t i = 0; i < count; i++) {
+        length += (size_t)snprintf(text + length, size - length, entry, i);
+        length += (size_t)snprintf(text + length, size - length, "%s%s", noise, tail);
+    }
+    struct kiln_scene *scene = load_scene(text, NULL);
+    free(text);
+    return scene;
+}
+
+static void noises_of_all_nodes_and_objects_differ(void **state)
+{
+    (void)state;
+    struct kiln_scene *nodes =
+        scene_of_noises("nodes:\n", "  n%u: {position: ", "}\n", KILN_MAX_NODES);
+    struct kiln_scene *objects = scene_of_noises(
+        "backdrop:\n  objects:\n", "    n%u: {sphere: {center: ", "}}\n", KILN_MAX_OBJECTS);
+    uint32_t same = 0;
+    for (uint32_t i = 0; i < KILN_MAX_NODES; i++) {
+        for (uint32_t k = 0; k < i; k++)
+            same += kiln_node_frame_at(nodes, i, 0.3f, 0.3f).at[0] ==
+                    kiln_node_frame_at(nodes, k, 0.3f, 0.3f).at[0];
+    }
+    for (uint32_t i = 0; i < KILN_MAX_OBJECTS; i++) {
+        for (uint32_t k = 0; k < i; k++)
+            same += kiln_object_center(objects, &objects->backdrop.objects[i], 0.3f).x ==
+                    kiln_object_center(objects, &objects->backdrop.objects[k], 0.3f).x;
+    }
+    /* of 65,280 pairs of numbers with 24 bits, some may be the same by chance, but no 256 */
+    if (same > 2)
+        fail_msg("%u pairs of nodes or objects have the same noise", same);
+    kiln_scene_destroy(&nodes);
+    kiln_scene_destroy(&objects);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_number_is_used_twice),
+        cmocka_unit_test(noises_of_all_nodes_and_objects_differ),
     };
     return cmocka_run_group_tests_name("draws", tests, NULL, NULL);
 }

@@ -19,6 +19,9 @@ static const struct bad nodes[] = {
      ":2:37: nodes.a.parent: the node is its own parent: a, b, c, a; the first node of a chain has "
      "no parent"},
     {"kiln: 1\n"
+     "nodes: {none: {}, b: {parent: none}}\n",
+     ":2:15: nodes.none: must have another name, since none stands for no node"},
+    {"kiln: 1\n"
      "nodes: {a: {heading: path}}\n",
      ":2:22: nodes.a.heading: needs a position that is a path"},
     {"kiln: 1\n"
@@ -52,7 +55,16 @@ static const struct bad paths[] = {
     {"kiln: 1\n"
      "nodes: {a: {position: {path: {points: [[0, 0, 0], [1, 0, 0]], over: 1 s}}}}\n",
      ":2:69: nodes.a.position.path.over: expected two times, [first, last], of which the second is "
-     "the later one"},
+     "the later one, found 1 s and 1 s"},
+    {"kiln: 1\n"
+     "output: {fps: 10, frames: 100}\n"
+     "nodes: {a: {position: {path: {points: [[0, 0, 0], [1, 0, 0]], over: [10 %, 10 %]}}}}\n",
+     ":3:69: nodes.a.position.path.over: expected two times, [first, last], of which the second is "
+     "the later one, found 1 s and 1 s"},
+    {"kiln: 1\n"
+     "nodes: {a: {position: {points: [[0, 0, 0], [1, 0, 0]], over: [0 s, 1 s]}}}\n",
+     ":2:23: nodes.a.position: a curve through points is written {path: {points: [...], over: "
+     "[...]}}"},
     {"kiln: 1\n"
      "nodes: {a: {position: {path: {points: [[0, 0, 0], [1, 0, 0]], over: [0, 1], closed: "
      "true}}}}\n",
@@ -78,6 +90,17 @@ static const struct bad attached[] = {
      "camera: {attach: a, position: {keys: {0 s: [0, 0, 0], 1 s: [1, 0, 0]}}}\n",
      ":3:31: camera.position: varies within a node, so the camera needs a target, too"},
     {"kiln: 1\n"
+     "nodes: {a: {}}\n"
+     "camera: {attach: a, aperture: 10 cm}\n",
+     ":3:9: camera.focus: must be a distance, such as 5 m, where a camera with an aperture has no "
+     "target in its node"},
+    {"kiln: 1\n"
+     "nodes: {a: {}}\n"
+     "camera: {attach: a, position: [1, 0, 0], aperture: {keys: {0 s: 0, 1 s: 1 cm}}, focus: "
+     "target}\n",
+     ":3:88: camera.focus: must be a distance, such as 5 m, where a camera with an aperture has no "
+     "target in its node"},
+    {"kiln: 1\n"
      "backdrop: {objects: [{sphere: {}}, {box: {attach: a}}]}\n",
      ":2:51: backdrop.objects.1.box.attach: unknown node 'a' (there are none)"},
     {"kiln: 1\n"
@@ -93,6 +116,9 @@ static const struct bad attached[] = {
     {"kiln: 1\n"
      "systems: {s: {forces: [{drag: 1}, {vortex: {attach: a}}]}}\n",
      ":2:53: systems.s.forces.1.vortex.attach: unknown node 'a' (there are none)"},
+    {"kiln: 1\n"
+     "systems: {s: {forces: [{wind: {field: vortex, attach: a}}]}}\n",
+     ":2:55: systems.s.forces.0.wind.attach: unknown node 'a' (there are none)"},
     {"kiln: 1\n"
      "systems: {s: {forces: [{gravity: {region: {attach: a, box: {}}}}]}}\n",
      ":2:52: systems.s.forces.0.gravity.region.attach: unknown node 'a' (there are none)"},

@@ -184,9 +184,7 @@ static void a_camera_of_a_file_is_that_of_three_js(void **state)
             continue;
         const struct kiln_camera_stand stand = kiln_scene_camera_at(scene, (float)n[1]);
         const double eye[3] = {(double)stand.eye.x, (double)stand.eye.y, (double)stand.eye.z};
-        const double way[3] = {(double)(stand.eye.x - stand.target.x),
-                               (double)(stand.eye.y - stand.target.y),
-                               (double)(stand.eye.z - stand.target.z)};
+        const double way[3] = {-(double)stand.way.x, -(double)stand.way.y, -(double)stand.way.z};
         const double up[3] = {(double)stand.up.x, (double)stand.up.y, (double)stand.up.z};
         const double z[3] = {n[6] * n[12], n[7] * n[12], n[8] * n[12]};
         if (!(distance(eye, n + 3) < 1e-5 * (1 + fabs(n[3]) + fabs(n[4]) + fabs(n[5]))))

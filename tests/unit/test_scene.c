@@ -289,6 +289,7 @@ static void assert_same_scene(const struct kiln_scene *a, const struct kiln_scen
             entry->of = of;
         }
     }
+    left.node_cache = right.node_cache;
     left.meshes = right.meshes;
     left.loader = right.loader;
     left.arena = right.arena;

@@ -158,12 +158,11 @@ static const struct bad types[] = {
      "least and the greatest of those that are drawn, [a, b], found a list"},
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: [{count: 1, every: 0.1 ms}]}}}\n",
-     ":2:31: systems.a.emit.bursts.0: `every` is 0.0001 s; it must be 0 s, for a burst that is not "
-     "repeated, or at least 0.001 s"},
+     ":2:49: systems.a.emit.bursts.0.every: must be 0 s, for a burst that is not repeated, or at "
+     "least 0.001 s; found 0.0001 s"},
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: [{count: 1, every: 1 s, jitter: 2 s}]}}}\n",
-     ":2:31: systems.a.emit.bursts.0: the jitter of a burst that is repeated every 1 s must be at "
-     "most that; it is 2 s"},
+     ":2:62: systems.a.emit.bursts.0.jitter: must be at most `every`, 1 s; found 2 s"},
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: [{at: 0.5 s, count: 1, every: 1 ms}]}}}\n"
      "output: {fps: 10}\n"
@@ -173,6 +172,20 @@ static const struct bad types[] = {
     {"kiln: 1\n"
      "systems: {a: {collide: {dies: true, then: stop}}}\n",
      ":2:43: systems.a.collide.then: must not be stop where `dies` is true"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {dies: true, then: bounce}}}\n",
+     ":2:43: systems.a.collide.then: must not be bounce where `dies` is true"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: die, dies: false}}}\n",
+     ":2:31: systems.a.collide.then: must not be die where `dies` is false"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {chance: 0.5}}}\n",
+     ":2:33: systems.a.collide.chance: needs a `then` other than bounce, which is what particles "
+     "do by the rest of the chance"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {then: bounce, chance: {life: [0, 1]}}}}\n",
+     ":2:47: systems.a.collide.chance: needs a `then` other than bounce, which is what particles "
+     "do by the rest of the chance"},
     {"kiln: 1\n"
      "systems: {a: {collide: {then: stop}, interact: [collide: {}]}}\n",
      ":2:31: systems.a.collide.then: must not be stop where particles interact, since nothing "

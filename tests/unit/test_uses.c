@@ -87,7 +87,6 @@ static void values_with_keys_are_known(void **state)
         {"systems.a.collide={slowdown: {life: [0, 1]}}", BIT(KEYED_SLOWDOWN)},
         {"systems.a.collide={restitution: {life: [0, 1]}}", BIT(KEYED_RESTITUTION)},
         {"systems.a.collide={friction: {life: [0, 1]}}", BIT(KEYED_FRICTION)},
-        {"systems.a.collide={chance: {life: [0, 1]}}", BIT(KEYED_CHANCE)},
         {"systems.a.forces=[gravity: {life: [[0, 1, 0], [0, 2, 0]]}]", BIT(KEYED_FORCE_VECTOR)},
         {"systems.a.forces=[curl: {strength: " OVER_LIFE "}]", BIT(KEYED_FORCE_STRENGTH)},
         {"systems.a.forces=[curl: {pull: " OVER_LIFE "}]", BIT(KEYED_FORCE_PULL)},
@@ -98,6 +97,9 @@ static void values_with_keys_are_known(void **state)
         {"systems.a.collide={slowdown: {keys: {0 s: 1, 1 s: 0.5}}}", 0},
     };
     EXPECT("USES_KEYS", uses);
+    /* a chance needs a `then`, with which a system is stepped as a family */
+    assert_true(used("systems.a.collide={then: stop, chance: {life: [0, 1]}}", "USES_KEYS", true) ==
+                BIT(KEYED_CHANCE));
 }
 
 static void forces_are_known(void **state)

@@ -215,12 +215,29 @@ static void a_coarse_view_has_the_same_axis(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* A camera in a small node far from the origin, where the ulp of places is as great as the node. */
+static void a_camera_looks_along_its_node(void **state)
+{
+    (void)state;
+    static const char *const scales[] = {"1", "0.01", "0.0001", "0.000001", "1000"};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        char camera[256];
+        snprintf(camera, sizeof camera,
+                 "attach: eye}\nnodes: {eye: {position: [50, 20, 80], rotation: [0, 30 deg, 0], "
+                 "scale: %s}",
+                 scales[i]);
+        const struct kiln_view view = view_of(camera, 0);
+        assert_at(kiln_view_forward(&view), 0.5f, 0, sqrtf(0.75f));
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_ahead_has_negative_z),
         cmocka_unit_test(a_roll_turns_the_picture),
         cmocka_unit_test(every_direction_is_a_direction),
+        cmocka_unit_test(a_camera_looks_along_its_node),
         cmocka_unit_test(a_lens_blurs_what_is_out_of_focus),
         cmocka_unit_test(the_target_is_in_focus),
         cmocka_unit_test(pixels_are_filtered),

@@ -24,14 +24,13 @@ static float3 rotate(float3 v, float3 axis, float angle)
     return float3_add(sum, float3_scale(axis, along));
 }
 
-/* Returns the unit direction from the eye to the target; -z where both are in one place, as when
- * key frames lead the eye through its target. */
-static float3 forward_of(float3 position, float3 target)
+/* Returns the unit direction of the way from the eye to the target; -z where both are in one place,
+ * as when key frames lead the eye through its target. */
+static float3 forward_of(float3 way)
 {
-    float3 forward = float3_sub(target, position);
-    if (float3_dot(forward, forward) < KILN_CAMERA_NO_WAY)
+    if (float3_dot(way, way) < KILN_CAMERA_NO_WAY)
         return (float3){0.0f, 0.0f, -1.0f};
-    return normalized(forward);
+    return normalized(way);
 }
 
 /* Writes the inverse of the camera's pose. */
@@ -59,11 +58,10 @@ static void set_principal(struct kiln_view *view, float right, float below)
 }
 
 /* Returns the distance of the plane of focus along the line of sight, m. */
-static float focus_of(const struct kiln_scene *scene, float3 position, float3 target, float time_s)
+static float focus_of(const struct kiln_scene *scene, float distance, float time_s)
 {
     const float focus = kiln_scene_value(scene, &scene->camera.focus, time_s);
-    const float3 way = float3_sub(target, position);
-    return focus > 0.0f ? focus : exact_max(sqrtf(float3_dot(way, way)), 1e-3f);
+    return focus > 0.0f ? focus : exact_max(distance, 1e-3f);
 }
 
 /* Moves the eye to the instant's point of the lens, and the picture by what keeps the plane of
@@ -87,12 +85,12 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_i
     const struct kiln_camera *camera = &scene->camera;
     float time_s = kiln_scene_instant_time(scene, instant);
     const struct kiln_camera_stand stand = kiln_scene_camera_at(scene, time_s);
-    const float3 position = stand.eye, target = stand.target;
+    const float3 position = stand.eye;
     const struct exact_angle half_fov =
         exact_sincos(0.5f * kiln_scene_value(scene, &camera->fov, time_s));
     float roll = kiln_scene_value(scene, &camera->roll, time_s);
 
-    float3 forward = forward_of(position, target), up = stand.up;
+    float3 forward = forward_of(stand.way), up = stand.up;
     if (roll != 0.0f)
         up = rotate(up, forward, roll);
     float3 right = normalized(float3_cross(forward, up));
@@ -111,7 +109,7 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_i
     view.frustum = (float4){tan_y * width / height, tan_y, width, height};
     look_through(&view, instant, right, forward,
                  0.5f * kiln_scene_value(scene, &camera->aperture, time_s),
-                 focus_of(scene, position, target, time_s));
+                 focus_of(scene, stand.distance, time_s));
     return view;
 }
 

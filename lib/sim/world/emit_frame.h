@@ -9,8 +9,8 @@
 /* Returns the frame of the node, or of the mesh of the backdrop, that an emitter lies in, during a
  * step, from 1. It is exact at both ends of the step; in
  * between, places lie on a cubic that also has the frame's velocity at both ends, and rotations go
- * the shorter way about one axis. A frame that jumps within the step goes on as before until the
- * step's end. */
+ * about one axis, the way round that the frame's spin tells. What jumps within the step goes on as
+ * before until the step's end (kiln_node_step_at). */
 struct kiln_emit_frame kiln_emit_frame(const struct kiln_scene *scene,
                                        const struct kiln_emitter *emit, uint32_t step);
 
