@@ -96,7 +96,7 @@ $ kiln complete -- check --set 'systems.*.collide.'
 1|part	systems.*.collide.restitution=	Fraction of the speed towards a surface that a particle keeps when it bounces. It counts before `randomness` turns the velocity.
 1|part	systems.*.collide.friction=	Coulomb's coefficient of friction. An impact reduces the speed along the surface by at most this factor times the change of the speed towards the surface.
 1|part	systems.*.collide.dies=	A particle ends at its first impact, like rain: another way to write `then: die`.
-1|part	systems.*.collide.then=	What an impact does. `bounce` lets a particle bounce. `die` ends it. `stop` lets it rest where it hit, without forces, until its life ends; it stays there also if the object moves on.
+1|part	systems.*.collide.then=	What an impact does. `bounce` lets a particle bounce. `die` ends it. `stop` lets it rest where it hit, without forces, until its life ends; it stays there also if the object moves on. `stick` is the same, but the particle rides an object that moves or turns.
 1|part	systems.*.collide.chance=	Chance of the first impact in a step to do what `then` says. Otherwise the particle bounces.
 $ kiln complete -- check --set 'systems.*.forces.'
 1|part	systems.*.forces.*.	every entry
