@@ -10,7 +10,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  table2      <time>  UberFlow, table 2: experiments E1 to E5
 1|  curves      <time>  cost over 1,000 to 4,000,000 particles and 4 to 256 pixels
 1|  groups      <time>  kernels by the size of their work groups (Heinz 2019, 2.2.5)
-1|  forces      <time>  simulation by its force and integrator
+1|  forces      <time>  simulation by its force and integrator; baked winds
 1|  colliders   <time>  simulation by the objects that particles bounce off, and the building of volumes
 1|  balls       <time>  simulation of 100,000 balls that collide, without and with spin
 1|  flock       <time>  flocks of 4,096 and 16,384, by the particles that each looks at (Drone 2007, 7.4.4)
