@@ -312,7 +312,7 @@ FN float3 float3_normalize(float3 a, float3 otherwise)
 }
 
 /* Returns v rotated by a unit quaternion. */
-FN float3 float3_turn(float4 pose, float3 v)
+FN_WITHIN float3 float3_turn(float4 pose, float3 v)
 {
     EXACT float3 u = FLOAT3(pose.x, pose.y, pose.z);
     EXACT float3 across = float3_cross(u, v);

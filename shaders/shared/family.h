@@ -76,7 +76,7 @@ FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
 /* Finds the birth of child j of the parent in a slot. It is born when the parent has travelled j +
  * 1 of the distances between two children: where this happens on the two straight pieces of its
  * way, each of which it goes along evenly. */
-FN S(family_event) family_by_way(SIM_PARAM S(kiln_trace) t, uint parent, uint j)
+FN_APART S(family_event) family_by_way(SIM_PARAM S(kiln_trace) t, uint parent, uint j)
 {
     EXACT S(family_event) e = family_no_event();
     EXACT float target = FLOAT(j + 1u);
@@ -129,6 +129,17 @@ FN bool family_is_of_hit(SIM_PARAM S(kiln_trace) t, uint j)
     uint hit = t.serial_event.y >> TRACE_HITS_SHIFT;
     uint most = STEP(family.most);
     return j / most == hit && j % most < family_count(SIM t, hit);
+}
+
+/* Returns whether a child may be born in the step. what: serial_event.y of its parent's trace. */
+FN bool family_may_happen(SIM_PARAM uint what)
+{
+    uint event = STEP(family.impacts) != 0u ? TRACE_DEATH | TRACE_FATAL : TRACE_DEATH;
+    if (STEP(family.born_of) == BORN_OF_BOUNCE)
+        event = TRACE_TURN;
+    else if (STEP(family.born_of) >= BORN_OF_TRAIL)
+        event = TRACE_ALIVE;
+    return (what & event) != 0u;
 }
 
 /* Returns the event at which the child of a slot is born. t: the trace of its parent. */

@@ -5,9 +5,11 @@
  * vectors, no built-in mathematics (drivers disagree in the last bits). Words of its own:
  *   FN         stands before every function: `static inline` in C, nothing in GLSL
  *   FN_APART   stands before a function that few calls of its callers need: C compiles it apart
- * from them, so that they stay short EXACT      stands before every local that holds floats: GLSL's
- * `precise`, which keeps compilers from fusing or reordering operations. GLSL does not allow it for
- * parameters and return types: so pass, return and compare names of such locals, never expressions
+ *              from them, so that they stay short
+ *   FN_WITHIN  stands before a small function of the innermost loops, which C always inlines
+ *   EXACT      stands before every local that holds floats: GLSL's `precise`, which keeps compilers
+ *              from fusing or reordering operations. GLSL does not allow it for parameters and
+ *              return types: so pass, return and compare names of such locals, never expressions
  *   S(name)    the type of a struct: `struct name` in C, `name` in GLSL
  *   UINT(x)    a conversion; the value must be in range
  *   1.0f       every literal carries its f: in C, 1.0 would compute in double
@@ -20,6 +22,7 @@
 
 #define FN
 #define FN_APART
+#define FN_WITHIN
 #define EXACT    precise
 #define S(name)  name
 #define UINT(x)  uint(x)
@@ -45,8 +48,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#define FN       static inline
-#define FN_APART static __attribute__((noinline, unused))
+#define FN        static inline
+#define FN_APART  static __attribute__((noinline, unused))
+#define FN_WITHIN static inline __attribute__((always_inline))
 #define EXACT
 #define S(name)            struct name
 #define UINT(x)            ((uint)(x))

@@ -57,14 +57,13 @@ struct sweep_path {
     float later;        /* time by which the curve is known to have hit a surface */
     float aim;          /* end of the next piece */
     float3 push;        /* m in a whole step, by other particles of its system */
-    float3 carried;     /* m in a whole step, by the node that it moves with (carry.h) */
     uint bounces;
     uint guesses; /* guesses so far of the time of the next impact */
     bool curved;
 };
 
 FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
-                             float3 carried, bool curved)
+                             bool curved)
 {
     EXACT S(sweep_path) path;
     path.now = start;
@@ -76,7 +75,6 @@ FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) 
     path.later = end.since;
     path.aim = end.since;
     path.push = push;
-    path.carried = carried;
     path.bounces = 0u;
     path.guesses = 0u;
     path.curved = curved;
@@ -85,20 +83,22 @@ FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) 
     return path;
 }
 
-/* Returns the end of the next piece of a curve or of a straight line. */
-FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, S(value_clocks) clocks)
+/* Returns the end of the next piece of a curve or of a straight line. carried: m in a whole step,
+ * by the node that the particle moves with (carry.h). */
+FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, float3 carried,
+                                S(value_clocks) clocks)
 {
     EXACT S(collide_state) ahead = path.now;
     EXACT float part = path.aim - path.now.since;
     if (path.curved) {
         ahead = integrate(SIM path.now, path.aim, clocks);
         ahead.position = float3_add_scaled(ahead.position, path.push, part);
-        ahead.position = carry_on(SIM ahead.position, path.carried, part);
+        ahead.position = carry_on(SIM ahead.position, carried, part);
         return ahead;
     }
     EXACT float time_s = part * STEP(derived.dt_s);
     ahead.position = float3_add_scaled(path.now.position, path.now.velocity, time_s);
-    ahead.position = carry_on(SIM ahead.position, path.carried, part);
+    ahead.position = carry_on(SIM ahead.position, carried, part);
     ahead.since = path.aim;
     return ahead;
 }
@@ -188,13 +188,13 @@ FN S(sweep_path) sweep_past(S(sweep_path) before)
 /* Moves on from an impact, to the end if no other impact follows. left: the state behind it, with
  * the velocity in the world; from, blow: as for sweep_climb. */
 FN S(sweep_path) sweep_off(SIM_PARAM S(sweep_path) before, S(collide_hit) hit,
-                           S(collide_state) left, float3 from, float3 blow)
+                           S(collide_state) left, float3 from, float3 blow, float3 carried)
 {
     EXACT S(sweep_path) path = before;
     path.now = left;
     if (before.curved)
         path.now = sweep_climb(SIM left, before, from, blow);
-    path.now.velocity = carry_to_world(SIM path.now.velocity, path.carried, -1.0f);
+    path.now.velocity = carry_to_world(SIM path.now.velocity, carried, -1.0f);
     path.hit = hit;
     path.later = path.until;
     path.aim = path.until;
@@ -241,7 +241,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
     EXACT S(collide_way) way;
     way.first = collide_no_touch();
     EXACT S(collide_answer) draw = answer;
-    EXACT S(sweep_path) path = sweep_start(SIM start, end, push, carried, curved);
+    EXACT S(sweep_path) path = sweep_start(SIM start, end, push, curved);
     for (uint piece = 0u; piece < SWEEP_PIECES && path.bounces < COLLIDE_BOUNCES; piece++) {
         S(collide_hit) hit =
             collide_first(SIM path.now, path.ahead.position, path.ahead.since, answer.radius);
@@ -269,10 +269,10 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
             } else {
                 if (SWEEP_TOUCHES && path.bounces == 0u)
                     way.first = sweep_touch(SIM left, hit, answer.radius, carried);
-                path = sweep_off(SIM path, hit, left, at.position, blow);
+                path = sweep_off(SIM path, hit, left, at.position, blow, carried);
             }
         }
-        path.ahead = sweep_ahead(SIM path, clocks);
+        path.ahead = sweep_ahead(SIM path, carried, clocks);
     }
     way.end = sweep_stay(SIM path, answer.radius);
     return way;

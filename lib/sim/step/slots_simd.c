@@ -370,7 +370,9 @@ static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, u
     memset(b->born, 0, sizeof b->born);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = first_slot + i;
-        b->born[i] = family_event_of(sim, *kiln_slots_parent(slots, slot), slot).happens;
+        const struct kiln_trace *parent = kiln_slots_parent(slots, slot);
+        b->born[i] = family_may_happen(sim, parent->serial_event.y) &&
+                     family_event_of(sim, *parent, slot).happens;
         any |= b->born[i];
     }
     return any != 0;
