@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "kiln.h"
 
-enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128, KILN_MAX_SOURCE_BRANCHES = 32 };
+enum { KILN_MAX_SOURCE_FILES = 128, KILN_MAX_SOURCE_PATH = 128, KILN_MAX_SOURCE_BRANCHES = 32 };
 
 /* The number of no branch of #if: what is outside of all. */
 #define KILN_SOURCE_WHOLE SIZE_MAX

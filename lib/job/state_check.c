@@ -62,8 +62,9 @@ static void check_rest(const struct kiln_particle *p, uint32_t step, struct faul
     else if (rest.y > KILN_MAX_COLLIDERS)
         FAULT(fault, "object that it rides: found %u, expected 0 to %d", rest.y,
               KILN_MAX_COLLIDERS);
-    else if (rest.z != 0)
-        FAULT(fault, "the last word of its rest: found %u, expected 0", rest.z);
+    else if (rest.z != 0 && (rest.z >> 16 == 0 || (rest.z & 65535) == 0))
+        FAULT(fault, "heading of its rest: found %u, expected 0 or two numbers from 1 to 65535",
+              rest.z);
 }
 
 /* Checks a particle in a slot, counted in its system. */

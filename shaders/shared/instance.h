@@ -3,6 +3,7 @@
 #ifndef KILN_SHARED_INSTANCE_H
 #define KILN_SHARED_INSTANCE_H
 
+#include "shared/heading.h"
 #include "shared/random.h"
 #include "shared/spin.h"
 

@@ -50,7 +50,7 @@ struct kiln_spin {
 
 /* A particle that has stopped has no velocity of its own. Its three words of velocity hold its rest
  * instead: the 64ths of steps at which it stopped, counted as step * 64 + 64ths; 1 + the number of
- * the collider that it rides, or 0; and 0. */
+ * the collider that it rides, or 0; and its heading (heading.h). */
 #define KILN_REST_STEP_SHIFT 6u
 
 FN bool particle_is_alive(S(kiln_particle) p)

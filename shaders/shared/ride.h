@@ -9,6 +9,7 @@
 #define KILN_SHARED_RIDE_H
 
 #include "shared/collide.h"
+#include "shared/heading.h"
 
 /* How a collider moves in a step. */
 struct ride_motion {
@@ -83,6 +84,20 @@ FN float3 ride(S(ride_motion) m, float since, float until, float3 place)
         arm = float3_turn(pose, arm);
     EXACT float3 y = float3_add(to, arm);
     return y;
+}
+
+/* Returns the word of a heading that is fixed to a collider (heading.h), as for a place. */
+FN uint ride_heading(S(ride_motion) m, float since, float until, uint word)
+{
+    if (m.angle == 0.0f || word == 0u)
+        return word;
+    EXACT float half_angle = 0.5f * m.angle * (until - since);
+    EXACT S(exact_angle) turn = exact_sincos(half_angle);
+    EXACT float3 sines = float3_scale(m.axis, turn.sine);
+    EXACT float4 pose = FLOAT4(sines.x, sines.y, sines.z, turn.cosine);
+    EXACT float3 heading = heading_unpack(word);
+    EXACT float3 turned = float3_turn(pose, heading);
+    return heading_pack(turned);
 }
 
 /* Returns the velocity, m/s, of a place that a collider carries through the whole step. */

@@ -149,8 +149,13 @@ FN S(kiln_particle) step_at_rest(SIM_PARAM S(kiln_particle) p, S(step_way) way)
         uint sixty_fourths = family_sixty_fourths(way.first.since, 0u);
         y.velocity_birth.x = (STEP(step) << KILN_REST_STEP_SHIFT) | sixty_fourths;
         y.velocity_birth.y = STEP_RIDES ? way.first.number + 1u : 0u;
-        y.velocity_birth.z = 0u;
+        y.velocity_birth.z = heading_pack(particle_velocity(p));
         y.velocity_birth.w |= KILN_PARTICLE_STOPPED;
+    }
+    if (STEP_RIDES && y.velocity_birth.y != 0u) {
+        EXACT S(ride_motion) motion = ride_motion_of(SIM y.velocity_birth.y - 1u);
+        EXACT float since = way.stops ? way.first.since : 0.0f;
+        y.velocity_birth.z = ride_heading(motion, since, 1.0f, y.velocity_birth.z);
     }
     return y;
 }

@@ -208,7 +208,7 @@ static void rests_are_checked(void **state)
     check_word(&runs, &p->velocity_birth.y, 258, place,
                "object that it rides: found 258, expected 0 to 257");
     check_word(&runs, &p->velocity_birth.z, 1, place,
-               "the last word of its rest: found 1, expected 0");
+               "heading of its rest: found 1, expected 0 or two numbers from 1 to 65535");
     struct kiln_error error = {0};
     p->velocity_birth.y = 6; /* of four objects and the floor */
     assert_false(kiln_state_check_births(&runs.first.pool, runs.scene, 70, FILE_NAME, &error));

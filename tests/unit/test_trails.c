@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "shared/heading.h"
 #include "support/cmocka.h"
 #include "support/simulation.h"
 
@@ -117,7 +118,7 @@ static void each_impact_has_children(void **state)
     "systems:\n"                                                                                   \
     "  drop:\n"                                                                                    \
     "    emit: {bursts: {0 s: 300}, life: 6 s, speed: 2, from: {box: {origin: [0, 1.5, 0],\n"      \
-    "           size: [1, 0.1, 1], direction: [0, -1, 0]}}}\n"                                     \
+    "           size: [1, 0.1, 1], direction: [0.2, -1, 0.1]}}}\n"                                 \
     "    forces: [gravity: [0, -8, 0]]\n"                                                          \
     "    collide: {then: stick}\n"                                                                 \
     "  spray:\n"                                                                                   \
@@ -149,6 +150,20 @@ static void carry(double time_s, bool turns, const float3 from, double to[3])
     to[0] = part + (double)from.x * cos(angle) + (double)from.z * sin(angle);
     to[1] = 0.5 * part + (double)from.y;
     to[2] = -2 * part - (double)from.x * sin(angle) + (double)from.z * cos(angle);
+}
+
+/* Checks that a heading at rest is that of the flight, and that the object turns it later on. */
+static void check_heading(double time_s, bool turns, struct kiln_particle at_rest,
+                          struct kiln_particle now)
+{
+    const float3 first = particle_heading(at_rest), heading = particle_heading(now);
+    const double angle = turns ? 6.283185307179586 * (time_s - 1) / 2 : 0;
+    const double x = (double)first.x * cos(angle) + (double)first.z * sin(angle);
+    const double z = (double)first.z * cos(angle) - (double)first.x * sin(angle);
+    assert_true(first.y < -0.9f && fabsf(first.x - 2.0f * first.z) < 2e-4f && first.x > 0.01f);
+    if (!(fabs((double)heading.x - x) < 1e-3 && fabs((double)heading.z - z) < 1e-3))
+        fail_msg("at %g s the heading is %g, %g, not %g, %g", time_s, (double)heading.x,
+                 (double)heading.z, x, z);
 }
 
 /* Returns whether a drop rides the object, and not the floor under it. */
@@ -193,6 +208,7 @@ static void what_sticks_rides(void **state)
                 assert_true(v.x == 0.0f && v.y == 0.0f && v.z == 0.0f);
                 assert_int_equal(drops[i].velocity_birth.x, at_rest[i].velocity_birth.x);
                 assert_int_equal(drops[i].velocity_birth.y, 1);
+                check_heading(step / 60.0, r != OF_WORLD, at_rest[i], drops[i]);
             }
         }
         simulation_end(&run);

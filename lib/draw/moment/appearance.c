@@ -125,7 +125,7 @@ struct instance_axes kiln_appearance_axes(const struct kiln_appearance_system *s
 {
     if (system->spins && orient == ORIENT_SPIN)
         return instance_posed(kiln_appearance_pose(system, slot, clocks));
-    return instance_axes_of(orient, particle_velocity(system->records[slot]),
+    return instance_axes_of(orient, particle_heading(system->records[slot]),
                             spin_angle(system, slot, clocks), clocks->stream);
 }
 

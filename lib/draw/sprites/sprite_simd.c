@@ -44,9 +44,10 @@ static void turn_billboards(struct sprite_lanes *p)
     const struct vf_angle rotation = vf_sincos(angle + spin * side * turned_s);
     struct billboard_edge edge = {-rotation.sine, rotation.cosine, p->half_size};
     if (some_stretch(p)) {
-        struct vf3 moving = to_view(p->pass->view, p->record.velocity);
-        edge = billboard_stretched(p->look->form.y, edge, p->shape.c[1],
-                                   vf3_dot(moving, plane.right), vf3_dot(moving, plane.up));
+        struct vf3 moving = to_view(p->pass->view, vf_heading(&p->record));
+        edge =
+            billboard_stretched(p->look->form.y, edge, vf_where(~p->record.stopped, p->shape.c[1]),
+                                vf3_dot(moving, plane.right), vf3_dot(moving, plane.up));
     }
     p->half_length = edge.half_length;
     if (p->look->form.x == 0 && p->look->form.w != 0)

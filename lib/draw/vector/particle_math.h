@@ -5,6 +5,7 @@
 
 #include "base/transpose.h"
 #include "shared/derived.h"
+#include "shared/heading.h"
 
 /* Returns 1 / x as exact_rcp does. */
 SIMD vf vf_rcp(vf x)
@@ -55,6 +56,7 @@ struct vf_particles {
     vu serial, birth;
     vi stopped; /* a mask of particles that have stopped */
     vu rest;    /* of these, the time at which they did: the first word of their rest */
+    vu heading; /* of these, the last word of their rest: heading.h */
 };
 
 /* Reads the particles in slots of a pool's records. */
@@ -76,7 +78,23 @@ SIMD struct vf_particles read_records(const struct kiln_particle *records, vi sl
                                  .serial = (vu)first.c[3],
                                  .birth = birth,
                                  .stopped = stopped,
-                                 .rest = (vu)second.c[0]};
+                                 .rest = (vu)second.c[0],
+                                 .heading = (vu)second.c[2]};
+}
+
+/* Returns vectors along the headings of particles, as particle_heading does. */
+SIMD struct vf3 vf_heading(const struct vf_particles *p)
+{
+    struct vf3 y = p->velocity;
+    for (int i = 0; any(p->stopped) && i < LANES; i++) {
+        if (!p->stopped[i])
+            continue;
+        const float3 heading = heading_unpack(p->heading[i]);
+        y.x[i] = heading.x;
+        y.y[i] = heading.y;
+        y.z[i] = heading.z;
+    }
+    return y;
 }
 
 SIMD vf vf_birth_fraction(vu birth)

@@ -229,7 +229,8 @@ static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b
     }
 }
 
-/* Gives particles that rest back the words in which their rest is, as step_at_rest does. before:
+/* Gives particles that rest back the words in which their rest is, as step_at_rest does; headings
+ * turn with the colliders that they ride. before:
  * the records before the step. */
 static inline void rest_on(const struct kiln_sim *sim, struct kiln_block *b,
                            const struct kiln_particle *before)
@@ -242,6 +243,10 @@ static inline void rest_on(const struct kiln_sim *sim, struct kiln_block *b,
         b->lanes.words[4][i] = before[i].velocity_birth.x;
         b->lanes.words[5][i] = before[i].velocity_birth.y;
         b->lanes.words[6][i] = before[i].velocity_birth.z;
+        if (before[i].velocity_birth.y != 0) {
+            const struct ride_motion motion = ride_motion_of(sim, before[i].velocity_birth.y - 1);
+            b->lanes.words[6][i] = ride_heading(motion, 0.0f, 1.0f, before[i].velocity_birth.z);
+        }
     }
 }
 

@@ -78,7 +78,7 @@ void main()
     float scale = max(size * extent.x, 0.5 * pixel_m) / extent.x;
     float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread,
                                  particle_turned_s(record, age, view.clock.y));
-    instance_axes axes = instance_axes_of(orient, particle_velocity(record), angle, stream);
+    instance_axes axes = instance_axes_of(orient, particle_heading(record), angle, stream);
 #ifdef SPINS
     if (looks[system].turn.w != 0u)
         axes = instance_posed(pose_of_slot(system, KILN_ENTRY_SLOT(entry)));

@@ -30,6 +30,7 @@
 #include "shared/billboard.h"
 #include "shared/billboard_light.h"
 #include "shared/billboard_place.h"
+#include "shared/heading.h"
 #ifdef HAZE
 #include "shared/haze.h"
 #include "shared/surface_light.h"
@@ -216,9 +217,10 @@ void make_billboard(uint entry)
     if (!billboard_is_flat(form.y))
         plane = billboard_plane_facing(form.y, world_to_view_vector(axis), center.xyz);
 #endif
-    vec3 moving = world_to_view_vector(particle_velocity(record));
+    vec3 moving = world_to_view_vector(particle_heading(record));
+    float stretch = particle_has_stopped(record) ? 0.0 : shape.y;
     billboard_edge edge = billboard_edge(-sin(angle), cos(angle), half_size);
-    edge = billboard_stretched(form.y, edge, shape.y, dot(moving, plane.right),
+    edge = billboard_stretched(form.y, edge, stretch, dot(moving, plane.right),
                                dot(moving, plane.up));
     float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
     float opacity = shape.z;
