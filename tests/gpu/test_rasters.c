@@ -156,7 +156,8 @@ static const struct text VALUES = {
     "    emit: {rate: 900, life: 1 s, speed: 0.2, from: {mesh: {file: tests/sources/quilt.obj}}}\n"
     "    look: {atlas: \"builtin:spark\", blend: add, size: 6 cm, color: source, intensity: 3}\n"};
 
-/* Children with the color, size and temperature of parents, most of which are dead. */
+/* Children with the color, size and temperature of parents, most of which are dead, and with the
+ * colours of an image that parents were born on. */
 static const struct text INHERITED = {
     "inherited",
     "kiln: 1\n"
@@ -179,7 +180,15 @@ static const struct text INHERITED = {
     "  dots:\n"
     "    emit: {parent: {system: shell, on: {death: 9}, inherit: {color: true}}, life: 1 s, speed: "
     "2}\n"
-    "    look: {shape: point, size: 5 cm, opacity: {age: {0 s: 1, 1 s: 0}}}\n"};
+    "    look: {shape: point, size: 5 cm, opacity: {age: {0 s: 1, 1 s: 0}}}\n"
+    "  logo:\n"
+    "    emit: {rate: 200, life: 0.3 s, speed: 0.2,\n"
+    "           from: {image: {file: tests/sources/mark.png, width: 2 m, origin: [0, 1, 0]}}}\n"
+    "    look: {shape: point, size: 6 cm, color: source}\n"
+    "  crumbs:\n"
+    "    emit: {parent: {system: logo, on: {trail: 9}, inherit: {color: true}}, life: 1 s, speed: "
+    "0.5}\n"
+    "    look: {shape: point, size: 9 cm, color: [0, 1, 0]}\n"};
 
 /* Loads a scene, and creates its stages and a stage for each technique. path: the scene's file, or
  * NULL to load `text`. */
