@@ -109,7 +109,7 @@ $ jq -c '[.parts[].rows[] | .value.median] | (min > -0.01), .[1] < .[0]' threads
 Where nothing can be measured, that is no success. What a flag says of a technique is kept.
 
 $ kiln bench groups --quick --quiet --device cpu >table; code=$?; grep -c '^  Not measured: ' table; exit $code
-1|6
+1|7
 2|kiln: bench: nothing could be measured on this device; the notes of the tables say why
 = 4
 $ kiln bench figure4.6 --quick --quiet --device software --technique sort=oddeven:4 --format csv | cut -d, -f6 | grep oddeven | sort -u
