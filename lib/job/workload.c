@@ -341,8 +341,11 @@ static uint32_t find_frame(const struct kiln_workload *w, bool heaviest)
     double least = kiln_workload_frame(w, 0), most = least;
     for (uint32_t i = 1; i < w->scene->frames; i++) {
         const double work = kiln_workload_frame(w, i);
-        least = fmin(least, work);
-        most = fmax(most, work);
+        /* not fmin and fmax, by which GCC 12 fails for arm64 */
+        if (work < least)
+            least = work;
+        if (work > most)
+            most = work;
     }
     const double slack = NEAR * (most - least);
     uint32_t frame = 0;
