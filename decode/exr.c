@@ -94,8 +94,7 @@ static bool take_windows(struct exr_reading *reading)
     return reading->layer.sampling == 1 || !odd || decode_exr_fail(reading, EXR_ERR_INVALID_ATTR);
 }
 
-/* ---- layers -----------------------------------------------------------------------------------
- */
+/* ---- layers ---------------------------------------------------------------------------------- */
 
 /* A cube map shows its six faces, one below the other. */
 static bool check_sky(const struct exr_reading *reading)

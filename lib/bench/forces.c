@@ -23,8 +23,7 @@ static const struct {
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 
-/* ---- baked winds ------------------------------------------------------------------------------
- */
+/* ---- baked winds ----------------------------------------------------------------------------- */
 
 #define FIELDS                                                                                     \
     "curl: {scale: 1.5, octaves: 3, drift: [0, 0.5, 0]}, vortex: {position: [-1, 0, 0], inward: "  \

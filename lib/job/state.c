@@ -25,7 +25,7 @@ enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
 /* Serials and birth words are stored as differences, since they rise from slot to slot. */
 enum { RECORD_RISING = 1 << 3 | 1 << 7 };
 
-/* What a system has beside records, a table of rows for its slots each. */
+/* The bits say which tables a system has beside its records: each has a row for each slot. */
 enum { HAS_SPINS = 1, HAS_WAYS = 2 };
 
 /* The contents of the head. */

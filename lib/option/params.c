@@ -149,8 +149,7 @@ bool kiln_params_declare(struct kiln_reader *reader, const struct kiln_node *dec
     return true;
 }
 
-/* ---- values from outside -----------------------------------------------------------------------
- */
+/* ---- values from outside --------------------------------------------------------------------- */
 
 static struct kiln_param *find(const struct kiln_reader *reader, const char *name)
 {

@@ -125,7 +125,7 @@ struct kiln_camera_stand kiln_scene_camera_at(const struct kiln_scene *scene, fl
     const float square = float3_dot(way, way);
     const float rise = square < KILN_CAMERA_NO_WAY ? 0.0f : way.y / sqrtf(square);
     float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
-    /* Where the camera looks straight down or up, the frame's up cannot be the picture's up. */
+    /* The frame's up cannot be the picture's up if the camera looks straight down or up. */
     if (fabsf(rise) > 0.9999f)
         up = FLOAT3(0.0f, 0.0f, rise > 0.0f ? 1.0f : -1.0f);
     return (struct kiln_camera_stand){

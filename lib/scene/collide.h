@@ -11,7 +11,7 @@ enum kiln_collide_mode {
     KILN_COLLIDE_CLAMP, /* the thesis: a position inside is clamped to the nearest face */
 };
 
-/* What an impact does to a particle. */
+/* Names what an impact does to a particle. */
 enum kiln_then {
     KILN_THEN_BOUNCE,
     KILN_THEN_DIE,

@@ -25,7 +25,7 @@ enum kiln_emitter_shape {
     KILN_EMITTER_PATH,
 };
 
-/* What of a mesh particles are born on. */
+/* Names the part of a mesh that particles are born on. */
 enum kiln_source_on {
     KILN_ON_SURFACE,
     KILN_ON_VERTICES,
@@ -60,12 +60,13 @@ enum kiln_align {
     KILN_ALIGN_NORMAL,   /* its y axis turns to the normal of the surface that the parent hit */
 };
 
-/* Births of particles from particles of another system: shared/family.h. */
-/* What children have of the look of their parent at their birth, instead of their own. */
+/* Says which values of its parent's look a child has, as they were at its birth, instead of its
+ * own. */
 struct kiln_inherited {
     bool color, size, temperature;
 };
 
+/* Says how particles are born of particles of another system: shared/family.h. */
 struct kiln_parent {
     bool enabled;
     const char *name;

@@ -38,7 +38,7 @@ enum kiln_wind_mode {
     KILN_WIND_ADD,  /* the air's velocity is added in each step (UberFlow 2004, 4.2); no pull */
 };
 
-/* Where a force acts: in a box or in a ball. All vary over time alone. */
+/* A box or a ball in which a force acts. Its values vary over time alone. */
 struct kiln_force_region {
     bool enabled;                  /* false: everywhere */
     bool box, sphere;              /* one of them, where it is enabled */

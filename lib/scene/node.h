@@ -151,7 +151,7 @@ void kiln_object_rotation(const struct kiln_scene *scene, const struct kiln_obje
 /* Below this square of the way from the eye to the target, the camera looks along -z. */
 #define KILN_CAMERA_NO_WAY 1e-12f
 
-/* Where the camera is and what it looks at, in the world. */
+/* The place and the line of sight of the camera, in the world. */
 struct kiln_camera_stand {
     float3 eye; /* m */
     float3 way; /* the direction from the eye to the target, as long as the way in its node is */

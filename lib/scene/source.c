@@ -299,32 +299,16 @@ bool kiln_object_is_source(const struct kiln_scene *scene, const struct kiln_obj
     return found;
 }
 
-uint64_t kiln_sources_words(const struct kiln_scene *scene)
+struct kiln_sources_sizes kiln_sources_sizes(const struct kiln_scene *scene)
 {
-    uint64_t words = 0;
+    struct kiln_sources_sizes sizes = {.words = 0};
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_source *source = scene->systems[i].emit.source.made;
-        words += source ? source->word_count : 0;
+        if (!source)
+            continue;
+        sizes.words += source->word_count;
+        sizes.texels += source->texel_count;
+        sizes.making = source->making > sizes.making ? source->making : sizes.making;
     }
-    return words;
-}
-
-uint64_t kiln_sources_texels(const struct kiln_scene *scene)
-{
-    uint64_t texels = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_source *source = scene->systems[i].emit.source.made;
-        texels += source ? source->texel_count : 0;
-    }
-    return texels;
-}
-
-uint64_t kiln_sources_making(const struct kiln_scene *scene)
-{
-    uint64_t most = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_source *source = scene->systems[i].emit.source.made;
-        most = source && source->making > most ? source->making : most;
-    }
-    return most;
+    return sizes;
 }

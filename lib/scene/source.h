@@ -36,11 +36,13 @@ bool kiln_sources_add_hashes(const struct kiln_scene *scene, bool motion, struct
 /* Returns whether particles are born on an object of the backdrop. */
 bool kiln_object_is_source(const struct kiln_scene *scene, const struct kiln_object *object);
 
-/* Return the words of all sources, the texels of their colours, and the most bytes that making one
- * of them took. */
-uint64_t kiln_sources_words(const struct kiln_scene *scene);
-uint64_t kiln_sources_texels(const struct kiln_scene *scene);
-uint64_t kiln_sources_making(const struct kiln_scene *scene);
+/* The sizes of all sources of a scene. */
+struct kiln_sources_sizes {
+    uint64_t words;  /* of all sources */
+    uint64_t texels; /* of their colours */
+    uint64_t making; /* the most bytes that making one of them took */
+};
+struct kiln_sources_sizes kiln_sources_sizes(const struct kiln_scene *scene);
 
 /* Returns the colour of the place where a particle was born, linear. */
 float3 kiln_source_color(const struct kiln_source *source, uint32_t stream);

@@ -12,7 +12,7 @@ static_assert(KILN_ALIAS_BYTES == 2 * sizeof(double) + sizeof(uint32_t) + sizeof
 bool kiln_alias_fill(const double *weights, uint32_t count, struct kiln_alias *table)
 {
     double *left = malloc(count * sizeof *left), sum = 0;
-    /* Those with too little are listed from the front, those with enough from the back. */
+    /* The list has cells with less than the mean from its front, and the others from its back. */
     uint32_t *list = malloc(count * sizeof *list), poor = 0, rich = count, heaviest = 0;
     if (!left || !list) {
         free(left);

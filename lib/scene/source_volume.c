@@ -18,7 +18,7 @@ enum {
     MOST_CUTS = 1 << 22, /* lines that may pass through triangles, of all triangles together */
 };
 
-/* Where a line passes through a triangle. */
+/* A point at which an upright line passes through a triangle. */
 struct crossing {
     uint32_t line;
     int turns; /* 1: upwards into the mesh, -1: out of it */

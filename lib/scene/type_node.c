@@ -47,8 +47,7 @@ const struct kiln_option_type kiln_type_attach = {
     .schema = schema_attach,
 };
 
-/* ---- demitter: bounds, and perhaps `attach` ----------------------------------------------------
- */
+/* ---- demitter: bounds, and perhaps `attach` -------------------------------------------------- */
 
 /* Copies a mapping without one of its keys. */
 static const struct kiln_node *without(struct kiln_reader *reader, const struct kiln_node *node,

@@ -10,8 +10,7 @@
 /* The item number of the first of them that draws: those of the forces of systems are below it. */
 enum { FIRST_ITEM = KILN_MAX_FORCES };
 
-/* ---- tables without the clocks of particles ---------------------------------------------------
- */
+/* ---- tables without the clocks of particles -------------------------------------------------- */
 
 /* Copies a table of rows, whose values then vary over time alone. */
 static const struct kiln_option *rows_over_time(struct kiln_reader *reader,
@@ -48,8 +47,7 @@ static const struct kiln_option_kind *kinds_over_time(struct kiln_reader *reader
     return ok ? copy : NULL;
 }
 
-/* ---- reading ----------------------------------------------------------------------------------
- */
+/* ---- reading --------------------------------------------------------------------------------- */
 
 /* Returns how many forces the baked winds of the same system have before these. */
 static uint32_t count_before(const struct kiln_reader *reader, const void *field)
@@ -95,8 +93,7 @@ static bool read_of(struct kiln_reader *reader, const struct kiln_option *option
     return true;
 }
 
-/* ---- printing and describing ------------------------------------------------------------------
- */
+/* ---- printing and describing ----------------------------------------------------------------- */
 
 static void print_of(struct kiln_printer *printer, const struct kiln_option *option,
                      const void *field)

@@ -147,24 +147,22 @@ FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint slot)
 {
     EXACT S(family_event) e = family_no_event();
     uint j = slot % STEP(family.slots);
-    uint what = t.serial_event.y;
+    if (!family_may_happen(SIM t.serial_event.y))
+        return e;
 #if FAMILY_HAS_WAYS
     if (USES(USES_BIRTHS, BORN_OF_WAY) && STEP(family.born_of) == BORN_OF_WAY) {
-        if ((what & TRACE_ALIVE) != 0u)
-            e = family_by_way(SIM t, slot / STEP(family.slots), j);
+        e = family_by_way(SIM t, slot / STEP(family.slots), j);
         return e;
     }
 #endif
     if (USES(USES_BIRTHS, BORN_OF_TRAIL) && STEP(family.born_of) == BORN_OF_TRAIL) {
-        if ((what & TRACE_ALIVE) != 0u)
-            e = family_trail(SIM t, j);
+        e = family_trail(SIM t, j);
     } else if (STEP(family.born_of) == BORN_OF_BOUNCE) {
         e.since = t.turn.w;
-        e.happens = (what & TRACE_TURN) != 0u && family_is_of_hit(SIM t, j);
+        e.happens = family_is_of_hit(SIM t, j);
     } else {
         e.since = t.end.w;
-        uint deaths = STEP(family.impacts) != 0u ? TRACE_DEATH | TRACE_FATAL : TRACE_DEATH;
-        e.happens = (what & deaths) != 0u && j < family_count(SIM t, 0u);
+        e.happens = j < family_count(SIM t, 0u);
     }
     return e;
 }

@@ -123,7 +123,7 @@ struct kiln_still_frame {
 #define VORTEX_RANKINE    0u
 #define VORTEX_LAMB_OSEEN 1u
 
-/* Where a force acts. */
+/* The shape of the region in which a force acts. */
 #define REGION_NONE   0u /* everywhere */
 #define REGION_BOX    1u
 #define REGION_SPHERE 2u
@@ -176,7 +176,7 @@ struct kiln_force_params {
 #define ALIGN_VELOCITY 1u
 #define ALIGN_NORMAL   2u
 
-/* What an impact does to a particle. */
+/* The number of what an impact does to a particle: enum kiln_then. */
 #define THEN_BOUNCE 0u
 #define THEN_DIE    1u
 #define THEN_STOP   2u

@@ -99,6 +99,7 @@ static void attached_forces_agree(void **state)
     simulation_agree(*state, FORCES, "simulation.integration=rk4", 25);
     simulation_agree(*state, PLAIN, NULL, 30);
 }
+
 /* Systems that move with nodes: with collisions, children, other particles, spins and a jump. */
 static const char SPACES[] =
     "kiln: 1\n"
@@ -140,41 +141,9 @@ static const char SPACES[] =
     "    interact: [{collide: {radius: 0.05 m, turning: [1 rad/s, 5 rad/s]}}]\n"
     "    collide: {friction: 0.4}\n";
 
-static const struct {
-    enum kiln_simulate_technique technique;
-    const char *name;
-} ways[] = {{KILN_SIMULATE_INPLACE, "inplace"},
-            {KILN_SIMULATE_FEEDBACK, "feedback"},
-            {KILN_SIMULATE_PINGPONG, "pingpong"},
-            {KILN_SIMULATE_TEXELS, "texels"}};
-
-static size_t way_count(void)
-{
-    return test_is_full() ? sizeof ways / sizeof *ways : 1;
-}
-
 static void attached_emitters_agree(void **state)
 {
-    struct kiln_scene *scene = load_scene(SCENE, NULL);
-    for (size_t i = 0; i < way_count(); i++) {
-        struct simulation cpu, other;
-        uint64_t alive, other_alive;
-        simulation_start(&cpu, scene, NULL, 2);
-        simulation_start_with(&other, scene, *state, ways[i].technique, 1);
-        for (uint32_t step = 1; step <= 70; step++) {
-            simulation_run(&cpu, 1);
-            simulation_run(&other, 1);
-            const struct kiln_state_hash a = simulation_hash(&cpu, &alive);
-            const struct kiln_state_hash b = simulation_hash(&other, &other_alive);
-            if (alive != other_alive || a.lane[0] != b.lane[0] || a.lane[1] != b.lane[1])
-                fail_msg("step %u: %08x%08x on cpu, %08x%08x with %s", step, a.lane[0], a.lane[1],
-                         b.lane[0], b.lane[1], ways[i].name);
-        }
-        assert_true(alive > 2000);
-        simulation_end(&other);
-        simulation_end(&cpu);
-    }
-    kiln_scene_destroy(&scene);
+    simulation_agree(*state, SCENE, NULL, 70);
 }
 
 static void spaces_agree(void **state)
@@ -201,10 +170,10 @@ static const char CIRCLE[] =
 static void births_lie_on_a_circle(void **state)
 {
     struct kiln_scene *scene = load_scene(CIRCLE, NULL);
-    for (size_t i = 0; i < way_count(); i++) {
+    for (size_t i = 0; i < simulation_way_count(); i++) {
         struct simulation run;
         uint32_t seen = 0;
-        simulation_start_with(&run, scene, *state, ways[i].technique, 1);
+        simulation_start_with(&run, scene, *state, simulation_ways[i].technique, 1);
         simulation_run(&run, 60);
         const struct kiln_particle *records = simulation_records(&run);
         for (uint32_t k = 0; k < run.pool.systems[0].capacity; k++) {
@@ -214,7 +183,7 @@ static void births_lie_on_a_circle(void **state)
                 continue;
             seen++;
             if (!(fabs(radius - 1) < 1e-5))
-                fail_msg("%s: born %.9g m from the axis", ways[i].name, radius);
+                fail_msg("%s: born %.9g m from the axis", simulation_ways[i].name, radius);
         }
         assert_true(seen > 2900);
         simulation_end(&run);

@@ -360,8 +360,7 @@ static const struct attempt {
     {.name = "remove a queue by name", .make = remove_message_queue},
 };
 
-/* ---- what the job inherits --------------------------------------------------------------------
- */
+/* ---- what the job inherits ------------------------------------------------------------------- */
 
 static void require(bool ok, const char *what)
 {
@@ -440,8 +439,7 @@ static void inherit(void)
     require(pipe(pipe_ends) == 0 && write(pipe_ends[1], "xx", 2) == 2, "pipe");
 }
 
-/* ---- asking ------------------------------------------------------------------------------------
- */
+/* ---- asking ---------------------------------------------------------------------------------- */
 
 static void enter(void)
 {

@@ -219,8 +219,7 @@ static void grids_grow_with_their_node(void **state)
     assert_true(farthest("nodes: {a: {scale: 3}}\n", attached, plain) > 0.01);
 }
 
-/* ---- closed forms -----------------------------------------------------------------------------
- */
+/* ---- closed forms ---------------------------------------------------------------------------- */
 
 /* Where a particle is and how fast it is, x + i z. A turn to the left around y is a factor of
  * e^(-i angle). */

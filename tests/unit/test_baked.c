@@ -16,8 +16,7 @@
 #include "support/scenes.h"
 #include "support/simulation.h"
 
-/* ---- fields -----------------------------------------------------------------------------------
- */
+/* ---- fields ---------------------------------------------------------------------------------- */
 
 /* The forces of a scene's only system in one step. */
 struct world {
@@ -303,8 +302,7 @@ static void vectors_write_the_same_bits(void **state)
     world_close(&w);
 }
 
-/* ---- time -------------------------------------------------------------------------------------
- */
+/* ---- time ------------------------------------------------------------------------------------ */
 
 #define FALLS                                                                                      \
     "kiln: 1\n"                                                                                    \
@@ -377,8 +375,7 @@ static void resumed_runs_read_the_same_grids(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* ---- grids, text ------------------------------------------------------------------------------
- */
+/* ---- grids, text ----------------------------------------------------------------------------- */
 
 static void cells_are_about_cubes(void **state)
 {
@@ -540,8 +537,7 @@ static const struct bad clocks[] = {
 
 BAD_TEST(clocks)
 
-/* ---- memory -----------------------------------------------------------------------------------
- */
+/* ---- memory ---------------------------------------------------------------------------------- */
 
 static uint64_t memory_of(int cells)
 {

@@ -379,8 +379,7 @@ static void parameters_are_limited(void **state)
     kiln_text_free(&text);
 }
 
-/* ---- the list of parameters -------------------------------------------------------------------
- */
+/* ---- the list of parameters ------------------------------------------------------------------ */
 
 static void parameters_are_listed(void **state)
 {

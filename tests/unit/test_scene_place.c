@@ -147,8 +147,7 @@ static void what_was_read_is_claimed(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* ---- swapping ----------------------------------------------------------------------------------
- */
+/* ---- swapping -------------------------------------------------------------------------------- */
 
 static atomic_bool is_over;
 

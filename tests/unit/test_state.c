@@ -173,8 +173,7 @@ static void histories_are_kept(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* ---- files that are not as they were written --------------------------------------------------
- */
+/* ---- files that are not as they were written ------------------------------------------------- */
 
 static char *read_bytes(size_t *size)
 {

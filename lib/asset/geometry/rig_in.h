@@ -17,8 +17,8 @@ struct kiln_rig_node {
     uint32_t camera;               /* enum kiln_rig_camera */
     double fov;                    /* rad, vertical, of a perspective camera */
     double local[3][4];            /* rows of the transform to the parent's space */
-    /* What that is composed of: a clip replaces the translation, the rotation (a quaternion of any
-     * length) and the scale one by one. */
+    /* The parts of that transform. A clip replaces the translation, the rotation (a quaternion of
+     * any length) and the scale one by one. */
     double move[3], turn[4], scale[3];
 };
 

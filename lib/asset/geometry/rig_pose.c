@@ -316,7 +316,7 @@ static bool find_frame(const struct transform *of, struct kiln_rig_pose *pose)
     if (!make_direction(pose->up, up_rate, &ignored[0], &ignored[1]))
         return false;
     cross(right, pose->up, pose->ahead);
-    /* Of a frame that turns, the rate of each axis is spin x axis. */
+    /* In a frame that turns, each axis changes by spin x axis. */
     cross(across, pose->ahead, ahead_rate);
     const double roll = dot(right, up_rate);
     for (int c = 0; c < 3; c++)

@@ -53,7 +53,7 @@ void kiln_moment_footprint(const struct kiln_scene *scene, struct kiln_footprint
     kiln_instances_footprint(scene, footprint);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES,
                        (uint64_t)kiln_look_rows(scene) * KILN_LOOK_SAMPLES, sizeof *m->look_table);
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, kiln_sources_texels(scene),
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, kiln_sources_sizes(scene).texels,
                        sizeof(uint4));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_TEXTURES, KILN_MAX_SYSTEMS,
                        sizeof *m->look_programs);

@@ -36,7 +36,7 @@ void kiln_moment_gl_defines(const struct kiln_scene *scene, struct kiln_text *de
         kiln_text_add(defines, "#define USES_CLOCKS %uu\n", clocks);
     if (kiln_look_rows(scene) > base_rows)
         kiln_text_add(defines, "#define LOOK_VALUES 1\n");
-    if (kiln_sources_texels(scene) > 0)
+    if (kiln_sources_sizes(scene).texels > 0)
         kiln_text_add(defines, "#define LOOK_SOURCES 1\n");
     bool inherits = false;
     for (uint32_t i = 0; i < scene->system_count; i++)
@@ -150,7 +150,7 @@ static GLsizei count_rows(const struct kiln_moment *moment)
 static bool make_sources(const struct kiln_moment *moment, struct kiln_error *error)
 {
     struct kiln_moment_gl *gl = moment->gl;
-    const size_t count = kiln_sources_texels(moment->scene);
+    const size_t count = kiln_sources_sizes(moment->scene).texels;
     const size_t rows = (count + SOURCE_ROW - 1) / SOURCE_ROW;
     if (count == 0)
         return true;

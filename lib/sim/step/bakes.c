@@ -74,8 +74,7 @@ void kiln_bakes_finish(struct kiln_bakes *bakes)
     *bakes = (struct kiln_bakes){.program = 0};
 }
 
-/* ---- writing ----------------------------------------------------------------------------------
- */
+/* ---- writing --------------------------------------------------------------------------------- */
 
 /* Fills in the parameters of baked wind i in a step, and returns the frame of its grid. */
 static struct kiln_still_frame fill_params(struct kiln_bakes *bakes,

@@ -5,7 +5,7 @@
 #include "base/simd.h"
 #include "sim/step/blocks.h"
 
-/* What is written on the host, for kiln_bake_points. */
+/* Describes a grid that kiln_bake_points writes on the host. */
 struct kiln_bake_work {
     struct kiln_sim sim; /* its step has the forces */
     struct kiln_grid grid;

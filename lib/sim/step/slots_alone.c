@@ -4,8 +4,7 @@
 #include "shared/step_family.h"
 #include "sim/step/slots_block.h"
 
-/* ---- births on meshes and images --------------------------------------------------------------
- */
+/* ---- births on meshes and images ------------------------------------------------------------- */
 
 /* Returns the words of a cell of what a shape is born on (shared/source.h), or 0 where no cell is
  * chosen by its turn. */
@@ -60,8 +59,7 @@ void kiln_slots_fetch(const struct kiln_sim *sim, uint32_t first_slot, const str
     }
 }
 
-/* ---- ends of steps -----------------------------------------------------------------------------
- */
+/* ---- ends of steps --------------------------------------------------------------------------- */
 
 /* Returns the way that the particle of lane i has flown. p: as it was before the step. */
 static inline struct step_way flown_way(const struct kiln_block *b, uint32_t i,

@@ -376,6 +376,7 @@ static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, u
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = first_slot + i;
         const struct kiln_trace *parent = kiln_slots_parent(slots, slot);
+        /* asked first, since a trace is copied for family_event_of, and few have an event */
         b->born[i] = family_may_happen(sim, parent->serial_event.y) &&
                      family_event_of(sim, *parent, slot).happens;
         any |= b->born[i];

@@ -309,7 +309,7 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
 {
     *grids = (struct kiln_sim_grids){
         .key_words = device && kiln_scene_stores_keys(scene) ? scene->key_count : 0,
-        .has_sources = kiln_sources_words(scene) > 0};
+        .has_sources = kiln_sources_sizes(scene).words > 0};
     kiln_buffer_init(&grids->words, device, 0, "grids");
     list_winds(grids, scene);
     struct sources sources = {.winds = {NULL}};
@@ -324,8 +324,8 @@ bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *devic
 
 void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
 {
-    /* What grids are loaded to takes about as much as their words, until all of them are copied.
-     * Baked winds are not loaded. */
+    /* Grids that are loaded take about as much as their words once more, until all of them are
+     * copied. Baked winds are not loaded. */
     uint64_t making = 0, loaded = scene->samples;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
@@ -345,9 +345,9 @@ void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footpr
     kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS,
                         loaded * sizeof(struct kiln_terrain_point) + making);
     /* The scene has the words of sources, too. */
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_words(scene),
-                       2 * sizeof(float4));
-    kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS, kiln_sources_making(scene));
+    const struct kiln_sources_sizes sizes = kiln_sources_sizes(scene);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_OBJECTS, sizes.words, 2 * sizeof(float4));
+    kiln_footprint_pass(footprint, KILN_FOOTPRINT_OBJECTS, sizes.making);
     kiln_sim_posed_footprint(scene, footprint);
     kiln_volumes_footprint(scene, footprint);
 }

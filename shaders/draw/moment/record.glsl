@@ -5,9 +5,8 @@
  *
  * The host defines LOOK_VALUES for a scene whose looks have values over other clocks than life,
  * LOOK_SOURCES for one whose particles have the colours of what they were born on, LOOK_PARENTS for
- * one whose looks inherit some from parents, and USES_CLOCKS (shared/value.h) for one whose lives are
- * more than curves over time
- * (kiln_moment_gl_defines). Other scenes get a shader that compiles faster.
+ * one whose looks inherit some values from parents, and USES_CLOCKS (shared/value.h) for one whose
+ * lives are more than curves over time (kiln_moment_gl_defines). Other scenes get a shader that compiles faster.
  *
  * The n-th particle that is drawn is entries[n], which names its system and its slot in
  * records (KILN_ENTRY). shared/derived.h reads value_keys as a global, so that block
