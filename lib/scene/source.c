@@ -34,6 +34,12 @@ static bool refuse(const struct making *m, const char *key, const char *text)
     return kiln_reader_error_at(m->reader, m->root, path, "%s", text);
 }
 
+/* Returns the key that names the mesh. */
+static const char *mesh_key(const struct making *m)
+{
+    return m->system->emit.source.object ? "object" : "file";
+}
+
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
 /* Finds the object that a source names: by its name, or by its number from 0. */
@@ -73,18 +79,17 @@ static bool fill_volume(struct making *m, const struct kiln_mesh *mesh, const fl
     struct kiln_emit_source *from = &m->system->emit.source;
     struct kiln_error error = {0};
     char path[192];
-    snprintf(path, sizeof path, "%s.%s", m->path, from->of_object ? "object" : "file");
+    snprintf(path, sizeof path, "%s.%s", m->path, mesh_key(m));
     if (!kiln_mesh_check_closed(mesh, file, &error))
         return kiln_asset_fail(m->reader, m->root, path, file, &error);
     bool fits = true;
     if (!kiln_source_fill_volume(m->scene->arena, mesh, rotation, scale, m->source, &from->edge,
                                  &fits))
         return fits ? kiln_reader_out_of_memory(m->reader)
-                    : refuse(m, from->of_object ? "object" : "file",
+                    : refuse(m, mesh_key(m),
                              "too many triangles of the mesh lie above one another for a volume");
     return m->source->cells > 0 ||
-           refuse(m, from->of_object ? "object" : "file",
-                  "the mesh has no volume, so no particle can be born in it");
+           refuse(m, mesh_key(m), "the mesh has no volume, so no particle can be born in it");
 }
 
 /* Fills the cells of a mesh. looks: the same mesh with its materials; `mesh` is another one where
@@ -105,7 +110,7 @@ static bool fill_mesh(struct making *m, const struct kiln_mesh *mesh, const stru
     if (!kiln_source_fill_mesh(m->scene->arena, mesh, from->on, (const float(*)[3])rotation, scale,
                                mesh != looks, m->source, &has_area))
         return has_area ? kiln_reader_out_of_memory(m->reader)
-                        : refuse(m, from->of_object ? "object" : "file",
+                        : refuse(m, mesh_key(m),
                                  "the mesh has no area, so no particle can be born on it");
     struct kiln_error error = {0};
     if (!kiln_look_color_is_source(&m->system->look))
@@ -116,7 +121,7 @@ static bool fill_mesh(struct making *m, const struct kiln_mesh *mesh, const stru
                       "so it has no colours for look.color");
     if (!kiln_source_color_mesh(m->scene, looks, file, from->on, m->source, &error)) {
         char path[192];
-        snprintf(path, sizeof path, "%s.%s", m->path, from->of_object ? "object" : "file");
+        snprintf(path, sizeof path, "%s.%s", m->path, mesh_key(m));
         return kiln_asset_fail(m->reader, m->root, path, file, &error);
     }
     return true;
@@ -136,7 +141,7 @@ static bool settle_mesh(struct making *m)
                                        mesh->triangle_count, file, &error);
     if (!ok) {
         char path[192];
-        snprintf(path, sizeof path, "%s.%s", m->path, from->object ? "object" : "file");
+        snprintf(path, sizeof path, "%s.%s", m->path, mesh_key(m));
         kiln_asset_fail(m->reader, m->root, path, file, &error);
     }
     const struct kiln_object *object =
