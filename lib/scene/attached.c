@@ -61,22 +61,29 @@ void kiln_attached_rotation(const struct kiln_scene *scene, const struct kiln_at
     }
 }
 
-void kiln_attached_velocity(const struct kiln_scene *scene, const struct kiln_attach *attach,
-                            float3 point, float3 rate, float time_s, double velocity[3])
+void kiln_frame_velocity(const struct kiln_node_frame *frame, float3 point, float3 rate,
+                         double velocity[3])
 {
     const double at[3] = {(double)point.x, (double)point.y, (double)point.z};
     const double moves[3] = {(double)rate.x, (double)rate.y, (double)rate.z};
     double arm[3], own[3], around[3];
+    double3_rotate(arm, frame->turn, at);
+    double3_rotate(own, frame->turn, moves);
+    double3_cross(around, frame->spin, arm);
+    for (int c = 0; c < 3; c++)
+        velocity[c] =
+            frame->velocity[c] + frame->scale * (own[c] + around[c]) + frame->growth * arm[c];
+}
+
+void kiln_attached_velocity(const struct kiln_scene *scene, const struct kiln_attach *attach,
+                            float3 point, float3 rate, float time_s, double velocity[3])
+{
+    const double moves[3] = {(double)rate.x, (double)rate.y, (double)rate.z};
     memcpy(velocity, moves, sizeof moves);
     if (!attach->name)
         return;
     const struct kiln_node_frame frame = kiln_node_frame_at(scene, attach->node, time_s, time_s);
-    double3_rotate(arm, frame.turn, at);
-    double3_rotate(own, frame.turn, moves);
-    double3_cross(around, frame.spin, arm);
-    for (int c = 0; c < 3; c++)
-        velocity[c] =
-            frame.velocity[c] + frame.scale * (own[c] + around[c]) + frame.growth * arm[c];
+    kiln_frame_velocity(&frame, point, rate, velocity);
 }
 
 float3 kiln_object_center(const struct kiln_scene *scene, const struct kiln_object *object,

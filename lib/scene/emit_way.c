@@ -23,7 +23,13 @@ static double speed_at(const struct kiln_scene *scene, uint32_t index, double ti
                          value_rate_at(scene->keys, emit->origin.y, clocks),
                          value_rate_at(scene->keys, emit->origin.z, clocks)};
     double v[3];
-    kiln_attached_velocity(scene, &emit->attach, origin, rate, at_s, v);
+    if (emit->source.of_object) {
+        const struct kiln_object *object = &scene->backdrop.objects[emit->source.number];
+        const struct kiln_node_frame frame = kiln_object_frame_at(scene, object, at_s, at_s);
+        kiln_frame_velocity(&frame, origin, rate, v);
+    } else {
+        kiln_attached_velocity(scene, &emit->attach, origin, rate, at_s, v);
+    }
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
@@ -38,6 +44,28 @@ static double way_of(const struct kiln_scene *scene, uint32_t index, uint32_t st
     for (int i = 0; i < 3; i++)
         way += weights[i] * dt_s * speed_at(scene, index, start_s + places[i] * dt_s);
     return way;
+}
+
+/* Warns of a system that has births by the metre alone, and a way that is too short for one. */
+static void warn_of_none(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index,
+                         const char *path)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_emitter *emit = &scene->systems[index].emit;
+    const uint64_t sum = emit->by_way[emit->way_count - 1];
+    if (sum >> 32 > 0 || emit->burst_count > 0 || kiln_scene_value_max(scene, &emit->rate) > 0.0f)
+        return;
+    if (sum == 0)
+        kiln_reader_warn_at(reader, root, path,
+                            "nothing is born: there are births by the metre alone, and the origin "
+                            "of `from` does not move in the whole run; `rate` has births where "
+                            "nothing moves");
+    else
+        kiln_reader_warn_at(reader, root, path,
+                            "nothing is born: there are births by the metre alone, and the way of "
+                            "the origin of `from` in the whole run is %.3g m, shorter than from "
+                            "one birth to the next, %.3g m",
+                            (double)sum / 4294967296.0 / emit->per_metre, 1 / emit->per_metre);
 }
 
 /* Sums up the way of a system, after each of `count` steps, the first of which is 0. */
@@ -62,6 +90,7 @@ static bool settle(struct kiln_reader *reader, const struct kiln_node *root, uin
     }
     emit->by_way = sums;
     emit->way_count = count;
+    warn_of_none(reader, root, index, path);
     return true;
 }
 

@@ -130,6 +130,10 @@ float kiln_attached_length(const struct kiln_scene *scene, const struct kiln_att
 void kiln_attached_rotation(const struct kiln_scene *scene, const struct kiln_attach *attach,
                             float columns[3][3], float time_s);
 
+/* Computes the velocity in the world, m/s, of a point that moves by `rate` in a frame. */
+void kiln_frame_velocity(const struct kiln_node_frame *frame, float3 point, float3 rate,
+                         double velocity[3]);
+
 /* Computes the velocity in the world, m/s, of a point that is attached and moves by `rate` in the
  * node's frame. */
 void kiln_attached_velocity(const struct kiln_scene *scene, const struct kiln_attach *attach,

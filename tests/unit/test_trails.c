@@ -469,6 +469,55 @@ static void emitters_that_accelerate(void **state)
     kiln_scene_destroy(&scene);
 }
 
+static void keep_warning(void *user, enum kiln_log_level level, const char *line)
+{
+    char *text = user;
+    assert_int_equal(level, KILN_LOG_WARNING);
+    assert_int_equal(text[0], '\0');
+    snprintf(text, KILN_MESSAGE_SIZE, "%s", line);
+}
+
+/* Loads a scene with births by the metre, and fails if its warning is not the expected one. */
+static void expect_warning(const char *emit, const char *wanted)
+{
+    char text[1024], warning[KILN_MESSAGE_SIZE] = "";
+    struct kiln_scene_params params = kiln_scene_defaults();
+    struct kiln_error error = {0};
+    params.log = (struct kiln_log){keep_warning, warning};
+    snprintf(text, sizeof text,
+             "kiln: 1\noutput: {frames: 60, fps: 60}\n"
+             "nodes:\n"
+             "  spun: {rotation: {keys: {0 s: [0, 0, 0], 1 s: [0, 360 deg, 0]}}}\n"
+             "  moved: {position: {keys: {0 s: [0, 0, 0], 1 s: [0.5, 0, 0]}}}\n"
+             "systems:\n  a: {emit: {%s}}\n",
+             emit);
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), "test.yaml", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    assert_string_equal(warning, wanted);
+    kiln_scene_destroy(&scene);
+}
+
+/* Births by the metre alone need a way that has one. */
+static void short_ways_have_a_warning(void **state)
+{
+    (void)state;
+    static const char AT_REST[] =
+        "test.yaml:7:25: systems.a.emit.per_metre: nothing is born: there are births by the metre "
+        "alone, and the origin of `from` does not move in the whole run; `rate` has births where "
+        "nothing moves";
+    expect_warning("per_metre: 100", AT_REST);
+    expect_warning("per_metre: 100, attach: spun", AT_REST);
+    expect_warning("per_metre: 1.9, attach: moved",
+                   "test.yaml:7:25: systems.a.emit.per_metre: nothing is born: there are births by "
+                   "the metre alone, and the way of the origin of `from` in the whole run is 0.5 "
+                   "m, shorter than from one birth to the next, 0.526 m");
+    expect_warning("per_metre: 2.1, attach: moved", "");
+    expect_warning("per_metre: 100, attach: spun, from: {point: {origin: [1, 0, 0]}}", "");
+    expect_warning("per_metre: 100, rate: 1", "");
+    expect_warning("per_metre: 100, bursts: {0 s: 1}", "");
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -481,6 +530,7 @@ int main(void)
         cmocka_unit_test(ways_bend),
         cmocka_unit_test(emitters_on_circles),
         cmocka_unit_test(emitters_that_accelerate),
+        cmocka_unit_test(short_ways_have_a_warning),
     };
     return cmocka_run_group_tests_name("trails", tests, NULL, NULL);
 }
