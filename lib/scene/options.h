@@ -14,6 +14,7 @@ extern const struct kiln_option kiln_options_backdrop[];
 extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option kiln_options_node[];
 extern const struct kiln_option_kind kiln_force_kinds[];
+extern const struct kiln_option_kind kiln_object_kinds[];
 extern const struct kiln_option_kind kiln_interaction_kinds[];
 extern const struct kiln_option *const kiln_baked_force; /* an item of the forces of a baked wind */
 
@@ -25,6 +26,7 @@ typedef struct kiln_backdrop kiln_options_backdrop_fills;
 typedef struct kiln_post kiln_options_post_fills;
 typedef struct kiln_scene_node kiln_options_node_fills;
 typedef struct kiln_force kiln_force_kinds_fills;
+typedef struct kiln_object kiln_object_kinds_fills;
 typedef struct kiln_interaction kiln_interaction_kinds_fills;
 
 /* Types of options. Each comment gives an example of the value in a scene. */

@@ -235,7 +235,7 @@ TABLE(terrain) = {
     END,
 };
 
-KINDS(object_kinds) = {
+PUBLIC_KINDS(kiln_object_kinds) = {
     {.name = "box", .value = KILN_OBJECT_BOX, MEMBERS(box), .help = "A box."},
     {.name = "sphere", .value = KILN_OBJECT_SPHERE, MEMBERS(sphere), .help = "A sphere."},
     {.name = "cylinder",
@@ -267,7 +267,7 @@ KINDS(object_kinds) = {
     {.name = NULL},
 };
 
-ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLES_HIT_OBJECT);
+ITEM_OF_KINDS(object, kiln_object_kinds, kind, .name = "object", .parts = IF_PARTICLES_HIT_OBJECT);
 
 #undef FILLS
 #define FILLS struct kiln_light

@@ -132,8 +132,8 @@ TABLE(mesh) = {
          "An OBJ, glTF, GLB, PLY or STL file of triangles, at rest. Without it, there is an "
          "`object`.")},
     {ROW(MOTION, "object", object, source.object, "none",
-         "A mesh of the backdrop, in whose frame the shape lies. Births are spread along its way, "
-         "and `inherit` is of its velocity there.")},
+         "A mesh of the backdrop, by its name or its number, in whose frame the shape lies. Births "
+         "are spread along its way, and `inherit` is of its velocity there.")},
     CHOICE(MOTION, "on", source.on, places_on_mesh, "surface",
            "`surface` is all triangles, by their areas. `vertices` is the vertices of the file, "
            "all of which are as likely. `volume` is the inside of a closed mesh."),
@@ -141,8 +141,10 @@ TABLE(mesh) = {
             "The mean direction of a particle is that of the surface where it is born, or of the "
             "normal of the vertex, instead of `direction`. It counts for nothing in a volume."),
     VECTOR(MOTION, "rotation", source.rotation, KILN_ANGLE, KILN_DEG(-36000), KILN_DEG(36000), 0,
-           "[0, 0, 0]", "Rotation of a file about the x, y and z axes, in this order."),
-    {ROW(MOTION, "scale", number, source.scale, "1", "Metres in one unit of a file."),
+           "[0, 0, 0]",
+           "Rotation of a file about the x, y and z axes, in this order. An object has its own."),
+    {ROW(MOTION, "scale", number, source.scale, "1",
+         "Metres in one unit of a file. An object has its own."),
      LIMITS(KILN_PLAIN, 1e-6, 1e6)},
     END,
 };
@@ -328,8 +330,8 @@ TABLE(emit_options) = {
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME(12), "0", "Particles born a second."),
     {ROW(IF_EMITTED_BY_METRE, "per_metre", number, per_metre, "0 1/m",
          "Particles born a metre of the way of the origin of `from`, at even distances, beside "
-         "those of `rate`. The origin moves if it has keys, or by the node that it is attached "
-         "to."),
+         "those of `rate`. The origin moves if it has keys, by the node that it is attached to, or "
+         "by the `object` in whose frame it lies."),
      LIMITS(KILN_PER_METRE, 0, 100000)},
     {ROW(MOTION, "bursts", bursts, bursts, "{}",
          "Particles that are born at once: a map of clip times, in seconds, to their numbers, or a "

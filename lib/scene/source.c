@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
+#include "scene/options.h"
 #include "scene/source_image.h"
 #include "scene/source_mesh.h"
 #include "scene/source_path.h"
@@ -42,25 +43,67 @@ static const char *mesh_key(const struct making *m)
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-/* Finds the object that a source names: by its name, or by its number from 0. */
-static bool find_object(struct making *m)
+/* An object as a scene names it: by its name, or by its number from 0 where it has none. */
+struct label {
+    char number[12];
+    const char *text;
+};
+
+static void label_object(const struct kiln_backdrop *backdrop, uint32_t i, struct label *label)
+{
+    const char *name = backdrop->objects[i].name;
+    snprintf(label->number, sizeof label->number, "%" PRIu32, i);
+    label->text = name ? name : label->number;
+}
+
+static const char *kind_of(const struct kiln_object *object)
+{
+    const struct kiln_option_kind *kind = kiln_object_kinds;
+    while (kind->value != (int)object->kind)
+        kind++;
+    return kind->name;
+}
+
+static bool refuse_unknown_object(const struct making *m)
 {
     const struct kiln_backdrop *backdrop = &m->scene->backdrop;
-    struct kiln_emit_source *from = &m->system->emit.source;
-    double number;
-    uint32_t found = backdrop->object_count;
+    const char *object = m->system->emit.source.object;
+    struct label labels[KILN_MAX_OBJECTS];
+    const char *names[KILN_MAX_OBJECTS];
+    uint32_t count = 0;
+    char suggestion[512], quoted[64], text[640];
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
-        const char *name = backdrop->objects[i].name;
-        found = name && strcmp(name, from->object) == 0 ? i : found;
+        if (backdrop->objects[i].kind != KILN_OBJECT_MESH)
+            continue;
+        label_object(backdrop, i, &labels[count]);
+        names[count] = labels[count].text;
+        count++;
     }
-    if (found == backdrop->object_count && kiln_text_to_double(from->object, &number) &&
-        number >= 0 && number < backdrop->object_count)
-        found = (uint32_t)number;
-    if (found == backdrop->object_count)
-        return refuse(m, "object", "no object of the backdrop has this name or number");
-    if (backdrop->objects[found].kind != KILN_OBJECT_MESH)
-        return refuse(m, "object", "must be a mesh; the object is of another kind");
-    if (backdrop->objects[found].animation.enabled && from->on != KILN_ON_SURFACE)
+    kiln_option_suggest(suggestion, sizeof suggestion, object, names, count);
+    kiln_node_quote(quoted, object);
+    snprintf(text, sizeof text, "unknown mesh '%s' in backdrop.objects%s", quoted, suggestion);
+    return refuse(m, "object", text);
+}
+
+/* Refuses what a source of an object cannot have besides. */
+static bool check_object(const struct making *m, uint32_t number)
+{
+    const struct kiln_backdrop *backdrop = &m->scene->backdrop;
+    const struct kiln_object *object = &backdrop->objects[number];
+    const struct kiln_emit_source *from = &m->system->emit.source;
+    const struct kiln_value3 *angles = &from->rotation;
+    struct label label;
+    char text[256];
+    label_object(backdrop, number, &label);
+    snprintf(text, sizeof text, "must name a mesh; backdrop.objects.%.100s is a %s", label.text,
+             kind_of(object));
+    if (object->kind != KILN_OBJECT_MESH)
+        return refuse(m, "object", text);
+    if (angles->x.constant != 0.0f || angles->y.constant != 0.0f || angles->z.constant != 0.0f)
+        return refuse(m, "rotation", "must be [0, 0, 0] with `object`, which has its own rotation");
+    if (from->scale < 1 || from->scale > 1)
+        return refuse(m, "scale", "must be 1 with `object`, which has its own scale");
+    if (object->animation.enabled && from->on != KILN_ON_SURFACE)
         return refuse(m, "on", "must be surface for a mesh with an animation");
     if (m->system->emit.parent.enabled)
         return refuse(m, "object",
@@ -68,9 +111,29 @@ static bool find_object(struct making *m)
                       "particles its own are born");
     if (m->system->emit.attach.name)
         return refuse(m, "object", "must be none where the emitter is attached to a node");
+    return true;
+}
+
+/* Finds the object that a source names: by its name, or by its number from 0. */
+static bool find_object(struct making *m)
+{
+    const struct kiln_backdrop *backdrop = &m->scene->backdrop;
+    struct kiln_emit_source *from = &m->system->emit.source;
+    struct label label;
+    uint32_t found = backdrop->object_count;
+    for (uint32_t i = 0; i < backdrop->object_count; i++) {
+        const char *name = backdrop->objects[i].name;
+        found = name && strcmp(name, from->object) == 0 ? i : found;
+    }
+    for (uint32_t i = 0; i < backdrop->object_count && found == backdrop->object_count; i++) {
+        label_object(backdrop, i, &label);
+        found = strcmp(label.number, from->object) == 0 ? i : found;
+    }
+    if (found == backdrop->object_count)
+        return refuse_unknown_object(m);
     from->of_object = true;
     from->number = found;
-    return true;
+    return check_object(m, found);
 }
 
 static bool fill_volume(struct making *m, const struct kiln_mesh *mesh, const float rotation[3][3],
@@ -90,6 +153,40 @@ static bool fill_volume(struct making *m, const struct kiln_mesh *mesh, const fl
                              "too many triangles of the mesh lie above one another for a volume");
     return m->source->cells > 0 ||
            refuse(m, mesh_key(m), "the mesh has no volume, so no particle can be born in it");
+}
+
+/* Fills the colours of a mesh. Where it has none, it has the colour that its object is drawn in; a
+ * mesh of a file is white there. */
+static bool color_mesh(struct making *m, const struct kiln_mesh *mesh,
+                       const struct kiln_mesh *looks, const char *file)
+{
+    const struct kiln_backdrop *backdrop = &m->scene->backdrop;
+    const struct kiln_emit_source *from = &m->system->emit.source;
+    float plain[3] = {1.0f, 1.0f, 1.0f};
+    struct kiln_error error = {0};
+    char path[192];
+    if (looks->triangle_count != mesh->triangle_count)
+        return refuse(m, "object",
+                      "the mesh has other triangles with its animation than without, "
+                      "so it has no colours for look.color");
+    if (from->of_object && kiln_source_is_plain(looks)) {
+        const struct kiln_value3 *color = &backdrop->objects[from->number].color;
+        struct label label;
+        label_object(backdrop, from->number, &label);
+        snprintf(path, sizeof path, "systems.%s.look.color", m->system->name);
+        if (!kiln_value3_is_constant(color))
+            return kiln_reader_error_at(
+                m->reader, m->root, path,
+                "cannot be source, since triangles of the mesh have no material, and the colour "
+                "that they are drawn in, backdrop.objects.%s.mesh.color, varies",
+                label.text);
+        plain[0] = color->x.constant;
+        plain[1] = color->y.constant;
+        plain[2] = color->z.constant;
+    }
+    snprintf(path, sizeof path, "%s.%s", m->path, mesh_key(m));
+    return kiln_source_color_mesh(m->scene, looks, file, from->on, plain, m->source, &error) ||
+           kiln_asset_fail(m->reader, m->root, path, file, &error);
 }
 
 /* Fills the cells of a mesh. looks: the same mesh with its materials; `mesh` is another one where
@@ -112,26 +209,16 @@ static bool fill_mesh(struct making *m, const struct kiln_mesh *mesh, const stru
         return has_area ? kiln_reader_out_of_memory(m->reader)
                         : refuse(m, mesh_key(m),
                                  "the mesh has no area, so no particle can be born on it");
-    struct kiln_error error = {0};
-    if (!kiln_look_color_is_source(&m->system->look))
-        return true;
-    if (looks->triangle_count != mesh->triangle_count)
-        return refuse(m, "object",
-                      "the mesh has other triangles with its animation than without, "
-                      "so it has no colours for look.color");
-    if (!kiln_source_color_mesh(m->scene, looks, file, from->on, m->source, &error)) {
-        char path[192];
-        snprintf(path, sizeof path, "%s.%s", m->path, mesh_key(m));
-        return kiln_asset_fail(m->reader, m->root, path, file, &error);
-    }
-    return true;
+    return !kiln_look_color_is_source(&m->system->look) || color_mesh(m, mesh, looks, file);
 }
 
 static bool settle_mesh(struct making *m)
 {
     struct kiln_emit_source *from = &m->system->emit.source;
-    if (!from->file == !from->object)
-        return refuse(m, "", "must have one of `file` and `object`");
+    if (from->file && from->object)
+        return refuse(m, "", "must have one of `file` and `object`, found both");
+    if (!from->file && !from->object)
+        return refuse(m, "", "must have one of `file` and `object`, found neither");
     if (from->object && !find_object(m))
         return false;
     const char *file = from->object ? m->scene->backdrop.objects[from->number].file : from->file;
@@ -156,6 +243,35 @@ static bool settle_mesh(struct making *m)
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
+/* Returns whether the scene has a key of the source, so that its value is not the default one. */
+static bool is_written(const struct making *m, const char *key)
+{
+    const char *const way[] = {"systems", m->system->name, "emit", "from", "image", key};
+    const struct kiln_node *node = m->root;
+    for (size_t i = 0; node && i < sizeof way / sizeof *way; i++)
+        node = kiln_node_entry(node, way[i]);
+    return node != NULL;
+}
+
+/* Refuses an image of which no pixel counts more than the threshold. */
+static bool refuse_dark_image(const struct making *m, const struct kiln_pixel_counts *counts)
+{
+    char text[256];
+    if (!(counts->most > 0))
+        return refuse(m, "file",
+                      counts->by_alpha
+                          ? "no pixel of the image counts: all of it is transparent"
+                          : "no pixel of the image counts: the image is opaque, so that "
+                            "pixels count by their brightness, and all of it is black");
+    snprintf(text, sizeof text,
+             "no pixel of the image counts more than the threshold, %g: %s, which is at most %.6g",
+             m->system->emit.source.threshold,
+             counts->by_alpha ? "pixels count by their alpha"
+                              : "the image is opaque, so that pixels count by their brightness",
+             counts->most);
+    return refuse(m, is_written(m, "threshold") ? "threshold" : "file", text);
+}
+
 static bool settle_image(struct making *m)
 {
     struct kiln_emit_source *from = &m->system->emit.source;
@@ -167,10 +283,11 @@ static bool settle_image(struct making *m)
     snprintf(path, sizeof path, "%s.file", m->path);
     if (!image)
         return kiln_asset_fail(m->reader, m->root, path, from->file, &error);
-    const uint32_t count = kiln_source_count_pixels(image, from->threshold);
+    const struct kiln_pixel_counts counts = kiln_source_count_pixels(image, from->threshold);
+    const uint32_t count = counts.above;
     bool ok = count > 0 && count <= KILN_MAX_SOURCE_CELLS;
     if (count == 0)
-        refuse(m, "threshold", "no pixel of the image is above the threshold");
+        refuse_dark_image(m, &counts);
     snprintf(text, sizeof text,
              "%" PRIu32 " pixels of the image are above the threshold; a scene has at most %d",
              count, KILN_MAX_SOURCE_CELLS);
@@ -223,6 +340,11 @@ static bool settle_system(struct making *m)
     struct kiln_emitter *emit = &m->system->emit;
     const char *name = name_of(emit->shape);
     char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.from.line.ordered", m->system->name);
+    if (emit->shape == KILN_EMITTER_LINE && emit->ordered && emit->nozzles > 0)
+        return kiln_reader_error_at(m->reader, m->root, path,
+                                    "must be false where the line has `nozzles`, at which "
+                                    "particles are born in turn");
     snprintf(path, sizeof path, "systems.%s.look.color", m->system->name);
     if (kiln_look_color_is_source(&m->system->look)) {
         if (!name || emit->shape == KILN_EMITTER_PATH)

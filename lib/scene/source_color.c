@@ -37,6 +37,7 @@ uint32_t kiln_source_pack(const float rgb[3])
 struct painter {
     const struct kiln_mesh *mesh;
     const struct kiln_mesh_looks *looks;
+    const float *plain; /* the colour of what has neither a material nor colours of vertices */
     struct kiln_asset_image **textures; /* one for each of the looks; NULL: it is not shown */
     uint32_t *rows;                     /* of colours, of each triangle */
 };
@@ -113,6 +114,8 @@ static uint32_t color_at(const struct painter *p, const struct kiln_material *ma
     float rgb[3] = {1.0f, 1.0f, 1.0f};
     if (material)
         memcpy(rgb, material->color, sizeof rgb);
+    else if (!p->looks->colors)
+        memcpy(rgb, p->plain, sizeof rgb);
     if (p->looks->colors) {
         for (int c = 0; c < 3; c++) {
             float mean = 0.0f;
@@ -277,12 +280,20 @@ static void finish(struct painter *p)
     free(p->rows);
 }
 
+bool kiln_source_is_plain(const struct kiln_mesh *looks)
+{
+    bool plain = false;
+    for (uint32_t i = 0; !looks->looks->colors && !plain && i < looks->triangle_count; i++)
+        plain = looks->looks->of_triangles[i] == KILN_NO_MATERIAL;
+    return plain;
+}
+
 bool kiln_source_color_mesh(struct kiln_scene *scene, const struct kiln_mesh *looks,
-                            const char *path, enum kiln_source_on on, struct kiln_source *source,
-                            struct kiln_error *error)
+                            const char *path, enum kiln_source_on on, const float plain[3],
+                            struct kiln_source *source, struct kiln_error *error)
 {
     const bool vertices = on == KILN_ON_VERTICES;
-    struct painter p = {.mesh = looks, .looks = looks->looks};
+    struct painter p = {.mesh = looks, .looks = looks->looks, .plain = plain};
     p.textures = calloc(p.looks->texture_count + 1u, sizeof *p.textures);
     p.rows = malloc(looks->triangle_count * sizeof *p.rows);
     bool ok = p.textures && p.rows;

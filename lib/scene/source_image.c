@@ -48,14 +48,17 @@ static double count_of(const struct kiln_asset_image *image, bool by_alpha, size
     return part > 0 ? (part < 1 ? part : 1) : 0;
 }
 
-uint32_t kiln_source_count_pixels(const struct kiln_asset_image *image, double threshold)
+struct kiln_pixel_counts kiln_source_count_pixels(const struct kiln_asset_image *image,
+                                                  double threshold)
 {
     const size_t pixels = (size_t)image->width * image->height;
-    const bool by_alpha = !is_opaque(image);
-    uint32_t count = 0;
-    for (size_t i = 0; i < pixels; i++)
-        count += count_of(image, by_alpha, i) > threshold;
-    return count;
+    struct kiln_pixel_counts counts = {.by_alpha = !is_opaque(image)};
+    for (size_t i = 0; i < pixels; i++) {
+        const double one = count_of(image, counts.by_alpha, i);
+        counts.above += one > threshold;
+        counts.most = one > counts.most ? one : counts.most;
+    }
+    return counts;
 }
 
 static void write_color(const struct kiln_asset_image *image, struct kiln_source *source,

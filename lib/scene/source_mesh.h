@@ -29,10 +29,15 @@ void kiln_source_place(const float from[3], const float rotation[3][3], float sc
 
 /* Fills the colours of a source of triangles or vertices: base colours of materials, times their
  * textures and the colours of vertices. looks: the same mesh with its materials. path: its file,
- * beside which textures lie. False with an error. */
+ * beside which textures lie. plain: the linear colour of triangles that have neither a material nor
+ * colours of vertices. False with an error. */
 bool kiln_source_color_mesh(struct kiln_scene *scene, const struct kiln_mesh *looks,
-                            const char *path, enum kiln_source_on on, struct kiln_source *source,
-                            struct kiln_error *error);
+                            const char *path, enum kiln_source_on on, const float plain[3],
+                            struct kiln_source *source, struct kiln_error *error);
+
+/* Returns whether a mesh with its materials has triangles with neither a material nor colours of
+ * vertices. */
+bool kiln_source_is_plain(const struct kiln_mesh *looks);
 
 /* Returns a colour as 10 bits of the root of each component. */
 uint32_t kiln_source_pack(const float rgb[3]);

@@ -200,8 +200,8 @@ static bool read_points(struct kiln_reader *reader, const struct kiln_option *op
     if (node->kind != KILN_NODE_LIST)
         return kiln_reader_mismatch(reader, option, node);
     if (node->count < 2 || node->count > KILN_MAX_PATH_POINTS)
-        return kiln_reader_error(reader, node, "found %u points; allowed is from 2 to %d",
-                                 node->count, KILN_MAX_PATH_POINTS);
+        return kiln_reader_error(reader, node, "found %u point%s; allowed is from 2 to %d",
+                                 node->count, node->count == 1 ? "" : "s", KILN_MAX_PATH_POINTS);
     float(*at)[3] = kiln_arena_alloc(reader->arena, node->count, sizeof *at);
     if (!at)
         return kiln_reader_out_of_memory(reader);

@@ -56,7 +56,9 @@ static const char SOURCES[] =
     "  ring:\n"
     "    emit: {rate: 300, bursts: {0.2 s: 150}, life: 1 s, from: {ring: {ordered: true}}}\n"
     "  line:\n"
-    "    emit: {bursts: {0.2 s: 150}, life: 1 s, from: {line: {nozzles: 3, ordered: true}}}\n";
+    "    emit: {bursts: {0.2 s: 150}, life: 1 s, from: {line: {ordered: true}}}\n"
+    "  rake:\n"
+    "    emit: {bursts: {0.2 s: 150}, life: 1 s, from: {line: {nozzles: 3}}}\n";
 
 static void sources_agree(void **state)
 {

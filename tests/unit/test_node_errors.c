@@ -45,7 +45,7 @@ static const struct bad paths[] = {
      ":2:30: nodes.a.position.path.over: the key is missing and must be given"},
     {"kiln: 1\n"
      "nodes: {a: {position: {path: {points: [[0, 0, 0]], over: [0 s, 1 s]}}}}\n",
-     ":2:39: nodes.a.position.path.points: found 1 points; allowed is from 2 to 1024"},
+     ":2:39: nodes.a.position.path.points: found 1 point; allowed is from 2 to 1024"},
     {"kiln: 1\n"
      "nodes: {a: {position: {path: {points: [[0, 0, 0], [0, 0, 0]], over: [0 s, 1 s]}}}}\n",
      ":2:51: nodes.a.position.path.points.1: must not be the point before it"},

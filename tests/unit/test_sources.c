@@ -260,84 +260,6 @@ static void they_start_along_the_surface(void **state)
     end(&run, &scene);
 }
 
-/* ---- objects --------------------------------------------------------------------------------- */
-
-/* A triangle that moves at 2 m/s along x, and turns about z by 90 degrees a second. */
-static const char MOVING[] =
-    "kiln: 1\n"
-    "output: {frames: 90, fps: 60}\n"
-    "backdrop:\n"
-    "  objects:\n"
-    "    card:\n"
-    "      mesh: {file: card.obj, scale: 0.5,\n"
-    "             position: {keys: {0 s: [0, 1, 0], 2 s: [4, 1, 0]}},\n"
-    "             rotation: {keys: {0 s: [0, 0, 0], 2 s: [0, 0, 180 deg]}}}\n"
-    "systems:\n"
-    "  a:\n"
-    "    emit: {rate: 3000, life: 9 s, speed: 0, inherit: 1, from: {mesh: {object: card}}}\n";
-
-static void objects_carry_births(void **state)
-{
-    (void)state;
-    const double pi = 3.14159265358979;
-    struct simulation run;
-    test_write_file("card.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
-    struct kiln_scene *scene = load_scene(MOVING, NULL);
-    simulation_start(&run, scene, NULL, 1);
-    simulation_run(&run, 60);
-    const struct kiln_particle *records = simulation_records(&run);
-    double worst_place = 0, worst_speed = 0;
-    uint32_t seen = 0;
-    for (uint32_t i = 0; i < run.pool.systems[0].capacity; i++) {
-        if (!particle_is_alive(records[i]))
-            continue;
-        const double born_s = (double)particle_birth_time(kiln_scene_derived(scene, 0), records[i]);
-        const float3 at = particle_position(records[i]), v = particle_velocity(records[i]);
-        const double age = 1.0 - born_s, angle = pi / 2 * born_s;
-        const double x = (double)at.x - (double)v.x * age - 2 * born_s;
-        const double y = (double)at.y - (double)v.y * age - 1;
-        const double own_x = cos(angle) * x + sin(angle) * y;
-        const double own_y = cos(angle) * y - sin(angle) * x;
-        worst_speed = fmax(worst_speed, fabs((double)v.x - (2 - pi / 2 * y)));
-        worst_speed = fmax(worst_speed, fabs((double)v.y - pi / 2 * x));
-        worst_place = fmax(worst_place, fmax(-own_x, fmax(-own_y, own_x + own_y - 1)));
-        worst_place = fmax(worst_place, fabs((double)at.z));
-        seen++;
-    }
-    print_message("%u births: %.2g m off the mesh, %.2g m/s\n", seen, worst_place, worst_speed);
-    assert_true(seen > 2900 && worst_place < 1e-5 && worst_speed < 1e-4);
-    end(&run, &scene);
-}
-
-/* The motion of a mesh that particles are born on belongs to the hash of the motion. */
-static void motion_has_sources(void **state)
-{
-    (void)state;
-    static const char *const overrides[][2] = {
-        {NULL, NULL},
-        {"backdrop.objects.card.mesh.scale=0.6", NULL},
-        {"backdrop.objects.card.mesh.position=[0, 1, 0]", NULL},
-        {"backdrop.objects.card.mesh.color=[1, 0, 0]", NULL},
-        {"systems.a.look.color=source", NULL},
-    };
-    char hashes[5][65], other[65];
-    struct kiln_error error = {0};
-    test_write_file("card.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
-    for (int i = 0; i < 5; i++) {
-        struct kiln_scene *scene = load_scene(MOVING, overrides[i]);
-        assert_true(kiln_scene_part_hash(scene, KILN_PART_MOTION, hashes[i], &error));
-        kiln_scene_destroy(&scene);
-    }
-    assert_string_not_equal(hashes[0], hashes[1]);
-    assert_string_not_equal(hashes[0], hashes[2]);
-    assert_string_equal(hashes[0], hashes[4]);
-    test_write_file("card.obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\n");
-    struct kiln_scene *scene = load_scene(MOVING, NULL);
-    assert_true(kiln_scene_part_hash(scene, KILN_PART_MOTION, other, &error));
-    assert_string_not_equal(hashes[0], other);
-    kiln_scene_destroy(&scene);
-}
-
 /* ---- paths, lines and rings ------------------------------------------------------------------ */
 
 #define CIRCLE                                                                                     \
@@ -579,8 +501,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(births_fill_volumes, test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(they_start_along_the_surface, test_enter_folder,
                                         test_leave_folder),
-        cmocka_unit_test_setup_teardown(objects_carry_births, test_enter_folder, test_leave_folder),
-        cmocka_unit_test_setup_teardown(motion_has_sources, test_enter_folder, test_leave_folder),
         cmocka_unit_test(paths_are_uniform_by_length),
         cmocka_unit_test(bursts_are_in_order),
         cmocka_unit_test(each_burst_has_its_order),
