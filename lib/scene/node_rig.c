@@ -109,6 +109,11 @@ static bool find_object(struct kiln_reader *reader, const struct kiln_node *root
         return find_numbered_object(reader, root, path, number, node);
     kiln_option_suggest(suggestion, sizeof suggestion, node->mesh, names, count);
     kiln_node_quote(quoted, node->mesh);
+    if (count == 0 && backdrop->object_count > 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "unknown mesh '%s' in backdrop.objects (no mesh has a name; "
+                                    "allowed is a number from 0 to %u)",
+                                    quoted, backdrop->object_count - 1);
     return kiln_reader_error_at(reader, root, path, "unknown mesh '%s' in backdrop.objects%s",
                                 quoted, suggestion);
 }

@@ -441,6 +441,10 @@ static void bad_numbers_of_meshes(void **state)
     expect_refused("nodes: {a: {mesh: 0, joint: hips}}\n"
                    "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n",
                    ":3:19: nodes.a.mesh: must be a mesh; object 0 is of another kind");
+    expect_refused("nodes: {a: {mesh: walker, joint: hips}}\n"
+                   "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n",
+                   ":3:19: nodes.a.mesh: unknown mesh 'walker' in backdrop.objects (no mesh has "
+                   "a name; allowed is a number from 0 to 1)");
 }
 
 static void a_mesh_of_a_list_has_a_number(void **state)
