@@ -429,20 +429,19 @@ static void bad_joints(void **state)
         "'a', by way of up, mid; it may be attached to a node that does not lie in it");
 }
 
+#define OF_LIST "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n"
+
 /* An object of a list has no name, and is named by its number. */
 static void bad_numbers_of_meshes(void **state)
 {
     (void)state;
     expect_refused("nodes: {a: {mesh: 0, joint: hips}}\n",
                    ":3:19: nodes.a.mesh: backdrop.objects has no objects");
-    expect_refused("nodes: {a: {mesh: 2, joint: hips}}\n"
-                   "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n",
+    expect_refused("nodes: {a: {mesh: 2, joint: hips}}\n" OF_LIST,
                    ":3:19: nodes.a.mesh: backdrop.objects has no object 2; allowed is from 0 to 1");
-    expect_refused("nodes: {a: {mesh: 0, joint: hips}}\n"
-                   "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n",
+    expect_refused("nodes: {a: {mesh: 0, joint: hips}}\n" OF_LIST,
                    ":3:19: nodes.a.mesh: must be a mesh; object 0 is of another kind");
-    expect_refused("nodes: {a: {mesh: walker, joint: hips}}\n"
-                   "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n",
+    expect_refused("nodes: {a: {mesh: walker, joint: hips}}\n" OF_LIST,
                    ":3:19: nodes.a.mesh: unknown mesh 'walker' in backdrop.objects (no mesh has "
                    "a name; allowed is a number from 0 to 1)");
 }
