@@ -480,7 +480,8 @@ struct kiln_render_stats {
     double setup_s;                /* time of making programs, textures and buffers */
     double total_s;
     double pass_ms[KILN_MAX_PASSES]; /* sums over the job */
-    uint64_t alive;                  /* living particles after the last step */
+    uint64_t alive;                  /* living particles after the last step; of the frame at 0 s
+                                        alone, those that it shows */
     struct kiln_state_hash state;    /* after the last step */
     uint64_t particle_bytes;         /* records and sort buffers, on each side, host or device, that
                                         holds them */

@@ -201,6 +201,14 @@ bool kiln_loop_copy_state(struct kiln_loop *loop, struct kiln_loop *from, struct
     return kiln_pool_copy(&loop->run.pool, &from->run.pool, error);
 }
 
+bool kiln_loop_count_first(struct kiln_loop *loop, uint64_t *alive, struct kiln_error *error)
+{
+    struct kiln_state_hash ignored;
+    const struct kiln_instant instant = {.step = loop->scene->warmup_steps};
+    return enter_moment(loop, instant, error) && kiln_loop_hash(loop, &ignored, alive, error) &&
+           leave_moment(loop, error);
+}
+
 bool kiln_loop_hash(struct kiln_loop *loop, struct kiln_state_hash *hash, uint64_t *alive,
                     struct kiln_error *error)
 {

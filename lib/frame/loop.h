@@ -84,4 +84,8 @@ bool kiln_loop_draw(struct kiln_loop *loop, uint32_t frame, bool hash, struct ki
 bool kiln_loop_hash(struct kiln_loop *loop, struct kiln_state_hash *hash, uint64_t *alive,
                     struct kiln_error *error);
 
+/* Writes the number of living particles that the frame at 0 s shows, with those of bursts at 0 s,
+ * which are not part of the state. The loop has not gone beyond that frame. */
+bool kiln_loop_count_first(struct kiln_loop *loop, uint64_t *alive, struct kiln_error *error);
+
 #endif

@@ -462,12 +462,14 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
 }
 
 /* Finds the state at the end of the run. For a run that drew nothing, it is the state of the last
- * frame. */
+ * frame. A run that drew the frame at 0 s alone counts the particles that this frame shows. */
 static bool find_last_state(struct kiln_job *job, struct kiln_error *error)
 {
     struct kiln_render_stats *s = &job->stats;
     if (job->draws)
-        return kiln_loop_hash(job->loop, &s->state, &s->alive, error);
+        return kiln_loop_hash(job->loop, &s->state, &s->alive, error) &&
+               (kiln_loop_run(job->loop)->step > job->scene->warmup_steps ||
+                kiln_loop_count_first(job->loop, &s->alive, error));
     const struct kiln_record *last = &job->records.items[job->records.count - 1];
     s->state = last->state;
     s->alive = last->alive;

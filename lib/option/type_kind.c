@@ -33,6 +33,17 @@ const struct kiln_node *kiln_option_variant_inside(const struct kiln_option_kind
     return NULL;
 }
 
+/* Returns the row of a variant, or NULL. */
+static const struct kiln_option_kind *find_variant(const struct kiln_option *option,
+                                                   const char *name, const char *variant)
+{
+    for (const struct kiln_option_kind *kind = option->kinds; kind->name; kind++) {
+        if (kind->variant && strcmp(kind->name, name) == 0 && strcmp(kind->variant, variant) == 0)
+            return kind;
+    }
+    return NULL;
+}
+
 /* Returns the row of the kind that the node's key names. If several kinds have that name, the key
  * `field` chooses the variant, or a key inside of the node. Returns NULL with an error on failure.
  */
@@ -74,6 +85,41 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
     kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
     kiln_reader_error(reader, node->key, "unknown kind%s", suggestion);
     return NULL;
+}
+
+/* Refuses two ways to choose a variant in one mapping: keys that stand beside the variant's own
+ * mapping, {baked: {...}, attach: n}, and such a mapping beside {field: baked}. */
+static bool check_spelling(struct kiln_reader *reader, const struct kiln_option *option,
+                           const struct kiln_node *node)
+{
+    const char *name = node->key->text;
+    const struct kiln_option_kind *kind = NULL;
+    const struct kiln_node *variant = NULL, *beside = NULL;
+    for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
+        const bool is_map = !kind && entry->kind == KILN_NODE_MAP;
+        const struct kiln_option_kind *found =
+            is_map ? find_variant(option, name, entry->key->text) : NULL;
+        kind = found ? found : kind;
+        variant = found ? entry : variant;
+        beside = found || beside ? beside : entry;
+    }
+    if (!variant || !beside)
+        return true;
+    const bool by_field = kiln_node_entry(node, "field") != NULL;
+    const struct kiln_node *wrong = by_field ? variant : beside;
+    const char *key = wrong->key->text;
+    if (by_field)
+        key = variant->first ? variant->first->key->text : kind->members->name;
+    else if (!kiln_option_find(kind->members, key))
+        key = kind->members->name;
+    kiln_reader_enter(reader, name);
+    kiln_reader_enter(reader, wrong->key->text);
+    return kiln_reader_error(reader, wrong->key,
+                             "must not stand beside `%s`, which chooses the kind; its keys stand "
+                             "%s, such as %s.%s%s%s",
+                             by_field ? "field" : kind->variant,
+                             by_field ? "beside it, too" : "inside of it", name,
+                             by_field ? "" : kind->variant, by_field ? "" : ".", key);
 }
 
 /* Copies a mapping without the key `field`, which only chooses the kind. */
@@ -138,6 +184,8 @@ static bool read_kind(struct kiln_reader *reader, const struct kiln_option *opti
                                  "expected one kind, found '%s' and '%s'", first, second);
     }
     const struct kiln_node *value = node->first;
+    if (value->kind == KILN_NODE_MAP && !check_spelling(reader, option, value))
+        return false;
     const struct kiln_node *inside =
         kiln_option_variant_inside(option->kinds, value->key->text, value);
     const struct kiln_option_kind *kind = find_kind(reader, option, value, inside);

@@ -66,6 +66,11 @@ struct kiln_inherited {
     bool color, size, temperature;
 };
 
+/* The defaults of keys that are refused with another value where they would do nothing. */
+#define KILN_BOUNCE_MOST 3u
+#define KILN_TRAIL_MOST  256u
+#define KILN_TRAIL_RATE  20.0f
+
 /* Says how particles are born of particles of another system: shared/family.h. */
 struct kiln_parent {
     bool enabled;
@@ -73,13 +78,15 @@ struct kiln_parent {
     uint32_t system; /* index of that system */
     enum kiln_event event;
     enum kiln_align align;
-    uint32_t count[2]; /* death, bounce: the fewest and the most children of one event */
-    bool impact;       /* death: a death at an impact counts as well */
-    bool every;        /* bounce: each of the first `hits` impacts has children */
-    uint32_t hits;
-    struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
+    uint32_t count[2];      /* death, bounce: the fewest and the most children of one event */
+    bool impact;            /* death: a death at an impact counts as well */
+    bool every;             /* bounce: each of the first `hits` impacts has children */
+    uint32_t hits;          /* KILN_BOUNCE_MOST by default */
+    struct kiln_value rate; /* trail: children a second; KILN_TRAIL_RATE by default; clock constant,
+                               or life of the parent */
     double per_metre;       /* trail: children a metre of the parent's way; 0: by the rate */
-    uint32_t most;          /* trail by the metre: the most children of one parent */
+    uint32_t most; /* trail by the metre: the most children of one parent; KILN_TRAIL_MOST by
+                      default */
     struct kiln_inherited look;
     uint32_t slots; /* slots for the children of one parent: above 0 when enabled */
 };

@@ -204,6 +204,47 @@ static bool check_generations(struct kiln_reader *reader, const struct kiln_node
                                 generations, KILN_MAX_GENERATIONS);
 }
 
+/* Returns whether an impact may end particles of a system. */
+static bool impacts_kill(const struct kiln_scene *scene, const struct kiln_collide *collide)
+{
+    return collide->enabled && (collide->dies || collide->then == KILN_THEN_DIE) &&
+           kiln_scene_value_max(scene, &collide->chance) > 0.0f;
+}
+
+/* Refuses keys of an event that would do nothing beside its others. Those that have their default
+ * are allowed, since a printed scene has them. */
+static bool check_event(struct kiln_reader *reader, const struct kiln_node *root,
+                        const struct kiln_system *system)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_parent *parent = &system->emit.parent;
+    const struct kiln_system *born_of = &scene->systems[parent->system];
+    const bool has_rate = parent->rate.count > 0 || parent->rate.constant != KILN_TRAIL_RATE;
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.parent.on.death.impact", system->name);
+    if (parent->event == KILN_EVENT_DEATH && parent->impact &&
+        !impacts_kill(scene, &born_of->collide))
+        return kiln_reader_error_at(reader, root, path,
+                                    "no impact ends particles of '%s': set systems.%s.collide.then "
+                                    "to die",
+                                    born_of->name, born_of->name);
+    snprintf(path, sizeof path, "systems.%s.emit.parent.on.bounce.most", system->name);
+    if (parent->event == KILN_EVENT_BOUNCE && !parent->every && parent->hits != KILN_BOUNCE_MOST)
+        return kiln_reader_error_at(reader, root, path,
+                                    "needs `every: true`; without it, the first impact alone "
+                                    "counts");
+    snprintf(path, sizeof path, "systems.%s.emit.parent.on.trail.most", system->name);
+    if (parent->event == KILN_EVENT_TRAIL && !is_by_way(parent) && parent->most != KILN_TRAIL_MOST)
+        return kiln_reader_error_at(reader, root, path,
+                                    "needs `per_metre`; by the rate, the life of a parent's "
+                                    "particle bounds the number of its children");
+    snprintf(path, sizeof path, "systems.%s.emit.parent.on.trail", system->name);
+    if (parent->event == KILN_EVENT_TRAIL && is_by_way(parent) && has_rate)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must have one of `rate` and `per_metre`, found both");
+    return true;
+}
+
 /* Checks the options that a system with a parent must have or must not have. */
 static bool check_births(struct kiln_reader *reader, const struct kiln_node *root,
                          const struct kiln_system *system)
@@ -236,7 +277,7 @@ static bool check_births(struct kiln_reader *reader, const struct kiln_node *roo
         return kiln_reader_error_at(reader, root, path,
                                     "particles of '%s' never bounce: set systems.%s.collide",
                                     born_of->name, born_of->name);
-    return true;
+    return check_event(reader, root, system);
 }
 
 /* Checks one value of the look that children have from their parent. name: its key; uses: what the
@@ -284,6 +325,14 @@ static bool check_looks(struct kiln_reader *reader, const struct kiln_node *root
     if (has->size && collide && collide->as_drawn)
         return kiln_reader_error_at(reader, root, path,
                                     "must be false where particles collide as they are drawn");
+    const struct kiln_value *temperature = &parent->look.temperature;
+    snprintf(path, sizeof path, "systems.%s.emit.parent.inherit.temperature", system->name);
+    if (has->temperature && !of_parent.temperature &&
+        !(kiln_scene_value_max(scene, temperature) > 0.0f))
+        return kiln_reader_error_at(reader, root, path,
+                                    "particles of '%s' have no temperature: set "
+                                    "systems.%s.look.temperature",
+                                    parent->name, parent->name);
     return (!has->color ||
             check_inherited(reader, root, system, "color",
                             kiln_value3_uses(scene->keys, &parent->look.color), of_parent.color)) &&
@@ -292,8 +341,7 @@ static bool check_looks(struct kiln_reader *reader, const struct kiln_node *root
                             kiln_value_uses(scene->keys, &parent->look.size), of_parent.size)) &&
            (!has->temperature ||
             check_inherited(reader, root, system, "temperature",
-                            kiln_value_uses(scene->keys, &parent->look.temperature),
-                            of_parent.temperature));
+                            kiln_value_uses(scene->keys, temperature), of_parent.temperature));
 }
 
 static bool settle_slots(struct kiln_reader *reader, const struct kiln_node *root,

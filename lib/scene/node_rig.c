@@ -2,6 +2,7 @@
  * finds the nodes, the clips and the cameras that the scene names. */
 #include "scene/node_rig.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -48,7 +49,10 @@ static bool check_keys(struct kiln_reader *reader, const struct kiln_node *root,
     if (!node->file && node->file_node)
         return fail(reader, root, node, "node", "needs `file`, whose node it is");
     if (!node->file && rows && kiln_node_entry(rows, "animation") && node->animation.enabled)
-        return fail(reader, root, node, "animation", "needs `file`, whose animation it is");
+        return fail(reader, root, node, "animation",
+                    node->mesh ? "must be left out, since the joint follows the animation of its "
+                                 "mesh, which stands in backdrop.objects"
+                               : "needs `file`, whose animation it is");
     if (node->mesh && !node->joint)
         return fail(reader, root, node, "mesh", "needs `joint`, which says which joint of it");
     if (!node->mesh && node->joint)
@@ -65,12 +69,31 @@ static bool check_keys(struct kiln_reader *reader, const struct kiln_node *root,
 
 /* ---- objects --------------------------------------------------------------------------------- */
 
+/* Finds the object of a number, which is that of its place, from 0. */
+static bool find_numbered_object(struct kiln_reader *reader, const struct kiln_node *root,
+                                 const char *path, uint64_t number, struct kiln_scene_node *node)
+{
+    const struct kiln_backdrop *backdrop = &kiln_reader_scene(reader)->backdrop;
+    if (backdrop->object_count == 0)
+        return kiln_reader_error_at(reader, root, path, "backdrop.objects has no objects");
+    if (number >= backdrop->object_count)
+        return kiln_reader_error_at(reader, root, path,
+                                    "backdrop.objects has no object %" PRIu64
+                                    "; allowed is from 0 to %u",
+                                    number, backdrop->object_count - 1);
+    node->object = (uint32_t)number;
+    return backdrop->objects[number].kind == KILN_OBJECT_MESH ||
+           kiln_reader_error_at(reader, root, path,
+                                "must be a mesh; object %" PRIu64 " is of another kind", number);
+}
+
 static bool find_object(struct kiln_reader *reader, const struct kiln_node *root,
                         struct kiln_scene_node *node)
 {
     const struct kiln_backdrop *backdrop = &kiln_reader_scene(reader)->backdrop;
     const char *names[KILN_MAX_OBJECTS];
     uint32_t count = 0;
+    uint64_t number = 0;
     char path[96], suggestion[512], quoted[64];
     snprintf(path, sizeof path, "nodes.%s.mesh", node->name);
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
@@ -82,8 +105,15 @@ static bool find_object(struct kiln_reader *reader, const struct kiln_node *root
         if (strcmp(object->name, node->mesh) == 0)
             return true;
     }
+    if (kiln_text_to_uint64(node->mesh, &number))
+        return find_numbered_object(reader, root, path, number, node);
     kiln_option_suggest(suggestion, sizeof suggestion, node->mesh, names, count);
     kiln_node_quote(quoted, node->mesh);
+    if (count == 0 && backdrop->object_count > 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "unknown mesh '%s' in backdrop.objects (no mesh has a name; "
+                                    "allowed is a number from 0 to %u)",
+                                    quoted, backdrop->object_count - 1);
     return kiln_reader_error_at(reader, root, path, "unknown mesh '%s' in backdrop.objects%s",
                                 quoted, suggestion);
 }
@@ -142,6 +172,26 @@ static uint32_t clip_of(const struct kiln_scene *scene, const struct kiln_scene_
                : KILN_RIG_AT_REST;
 }
 
+/* Warns of a scale of the file's node, or of one above it, that a node of a scene cannot have. */
+static void warn_of_scale(struct kiln_reader *reader, const struct kiln_node *root,
+                          const char *path, const struct kiln_scene_node *node)
+{
+    const uint32_t clip = clip_of(kiln_reader_scene(reader), node);
+    struct kiln_rig_scale scale;
+    char name[80];
+    if (!kiln_rig_find_scale(node->rig, node->rig_node, clip, &scale))
+        return;
+    if (*scale.name)
+        snprintf(name, sizeof name, "'%s'", scale.name);
+    else
+        snprintf(name, sizeof name, "%u", scale.number);
+    kiln_reader_warn_at(reader, root, path,
+                        "node %s of the file has the scale [%g, %g, %g]; a node of a scene has one "
+                        "scale, %g at least, so %g is taken",
+                        name, scale.axes[0], scale.axes[1], scale.axes[2], KILN_RIG_LEAST_SCALE,
+                        scale.taken);
+}
+
 static bool settle(struct kiln_reader *reader, const struct kiln_node *root,
                    struct kiln_scene_node *node)
 {
@@ -157,11 +207,7 @@ static bool settle(struct kiln_reader *reader, const struct kiln_node *root,
     if (!found)
         return kiln_asset_fail(reader, root, path, file, &error);
     snprintf(path, sizeof path, "nodes.%s.%s", node->name, node->mesh ? "joint" : "node");
-    if (!kiln_rig_is_uniform(node->rig, node->rig_node, clip_of(scene, node)))
-        kiln_reader_warn_at(
-            reader, root, path,
-            "the node of the file, or one above it, mirrors or has a scale that differs between "
-            "its axes; a node of a scene has one scale, so the scale along z is taken");
+    warn_of_scale(reader, root, path, node);
     return true;
 }
 

@@ -55,6 +55,28 @@ static bool find_parents(struct kiln_reader *reader, const struct kiln_node *roo
     return ok;
 }
 
+/* Refuses an object that lies in a joint of its own mesh. joint: the node that is this joint; the
+ * nodes on the way to it are named. */
+static bool refuse_object(struct kiln_reader *reader, const struct kiln_node *root, uint32_t joint)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const uint32_t number = scene->nodes[joint].object;
+    const struct kiln_object *object = &scene->backdrop.objects[number];
+    char path[80], chain[256] = "";
+    size_t length = 0;
+    for (uint32_t at = object->attach.node; at != joint; at = kiln_node_outer(scene, at)->node) {
+        if (length < sizeof chain)
+            length += (size_t)snprintf(chain + length, sizeof chain - length, "%s%s",
+                                       length ? ", " : ", by way of ", scene->nodes[at].name);
+    }
+    snprintf(path, sizeof path, "backdrop.objects.%u.mesh.attach", number);
+    return kiln_reader_error_at(
+        reader, root, path,
+        "the object would lie in a joint of its own mesh, '%s'%s%s; it may be attached to a node "
+        "that does not lie in it",
+        scene->nodes[joint].name, chain, length < sizeof chain ? "" : "...");
+}
+
 /* Refuses a node that is among its own parents, and names those on the way. */
 static bool check_ring(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
@@ -70,13 +92,14 @@ static bool check_ring(struct kiln_reader *reader, const struct kiln_node *root,
     char path[80], chain[256];
     size_t length = (size_t)snprintf(chain, sizeof chain, "%s", scene->nodes[index].name);
     do {
+        if (scene->nodes[at].mesh)
+            return refuse_object(reader, root, at);
         at = kiln_node_outer(scene, at)->node;
         if (length < sizeof chain)
             length += (size_t)snprintf(chain + length, sizeof chain - length, ", %s",
                                        scene->nodes[at].name);
     } while (at != index);
-    snprintf(path, sizeof path, "nodes.%s.%s", scene->nodes[index].name,
-             scene->nodes[index].mesh ? "mesh" : "parent");
+    snprintf(path, sizeof path, "nodes.%s.parent", scene->nodes[index].name);
     return kiln_reader_error_at(
         reader, root, path,
         "the node is its own parent: %s%s; the first node of a chain has no "

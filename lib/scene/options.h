@@ -36,6 +36,7 @@ extern const struct kiln_option_type kiln_type_motion_scale; /* auto, 0.5, [0.5,
 extern const struct kiln_option_type kiln_type_picture;      /* an image's path or none */
 extern const struct kiln_option_type kiln_type_image;        /* the same, decoded later */
 extern const struct kiln_option_type kiln_type_mesh;         /* a mesh's path */
+extern const struct kiln_option_type kiln_type_gltf;         /* the path of a file with nodes */
 extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
 extern const struct kiln_option_type kiln_type_part;         /* a name, a number, or none */
@@ -57,6 +58,7 @@ typedef struct kiln_motion_scale kiln_fills_motion_scale;
 typedef const char *kiln_fills_picture;
 typedef const char *kiln_fills_image;
 typedef const char *kiln_fills_mesh;
+typedef const char *kiln_fills_gltf;
 typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
 typedef const char *kiln_fills_part;

@@ -70,7 +70,7 @@ PUBLIC_TABLE(kiln_options_node) = {
     CHOICE(OF_NODE, "ahead", ahead, aheads, "z", "The axis that `heading: path` turns ahead."),
     VALUE(OF_NODE, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME(72), "1",
           "Factor on places and sizes of what lies in the node."),
-    {ROW(IF_NODE_IS_OF_FILE, "file", mesh, file, "none",
+    {ROW(IF_NODE_IS_OF_FILE, "file", gltf, file, "none",
          "A glTF or GLB file, whose space is that of position, rotation and scale. The node then "
          "is where a node of the file is.")},
     {ROW(IF_NODE_IS_OF_FILE, "node", part, file_node, "none",
@@ -78,8 +78,8 @@ PUBLIC_TABLE(kiln_options_node) = {
          "takes the field of view of that camera.")},
     SWITCH(IF_NODE_IS_OF_FILE, "animation", file_animation, animation.enabled, "{}",
            "An animation of the file, which moves the node. A file without animations needs none."),
-    {ROW(IF_NODE_IS_JOINT, "mesh", part, mesh, "none",
-         "A mesh of the backdrop by its name. The node then is where a joint of that mesh is; it "
+    {ROW(IF_NODE_IS_JOINT, "mesh", object, mesh, "none",
+         "A mesh of the backdrop. The node then is where a joint of that mesh is; it "
          "has no parent, position, rotation and scale of its own.")},
     {ROW(IF_NODE_IS_JOINT, "joint", part, joint, "none",
          "The joint, or another node of the mesh's file. It follows the mesh and its animation.")},

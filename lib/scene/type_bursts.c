@@ -43,6 +43,11 @@ static bool check_repetitions(struct kiln_reader *reader, const struct kiln_node
     char every[48], jitter[48];
     kiln_unit_print_double(every, KILN_SECONDS, burst->every_s);
     kiln_unit_print_double(jitter, KILN_SECONDS, burst->jitter_s);
+    if (burst->every_s == 0.0 && burst->most != KILN_INTEGER_BY_WORD) {
+        kiln_reader_enter(reader, "most");
+        return kiln_reader_error(reader, kiln_node_entry(node, "most"),
+                                 "needs `every`; without it, the burst is not repeated");
+    }
     if (burst->every_s == 0.0)
         return true;
     const bool rare = burst->every_s >= SHORTEST_S;

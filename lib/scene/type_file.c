@@ -111,6 +111,21 @@ const struct kiln_option_type kiln_type_mesh = {
     .schema = schema_file,
 };
 
+/* ---- gltf: a file that has nodes ------------------------------------------------------------- */
+
+static void describe_gltf(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "the path of a glTF or GLB file, from the scene's folder and inside it%s",
+                  option->fallback ? ", or none" : "");
+}
+
+const struct kiln_option_type kiln_type_gltf = {
+    .read = read_mesh,
+    .print = print_file,
+    .describe = describe_gltf,
+    .schema = schema_file,
+};
+
 /* ---- grid ------------------------------------------------------------------------------------ */
 
 /* Reads the name of a grid file; the file is loaded once all grids are counted (scene/samples.h).

@@ -123,7 +123,7 @@ static void print_part(struct kiln_printer *printer, const struct kiln_option *o
 static void describe_part(const struct kiln_option *option, struct kiln_text *out)
 {
     (void)option;
-    kiln_text_add(out, "a name, a number from 0, or none");
+    kiln_text_add(out, "the name of a node in the file, or its number there from 0, or none");
 }
 
 const struct kiln_option_type kiln_type_part = {

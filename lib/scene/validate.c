@@ -306,7 +306,9 @@ static bool check_regions(struct kiln_reader *reader, const struct kiln_node *ro
         kiln_system_force_path(system, i, path, sizeof path);
         snprintf(key, sizeof key, "%s.region", path);
         if (force->region.enabled && force->region.box == force->region.sphere)
-            return kiln_reader_error_at(reader, root, key, "must have one of `box` and `sphere`");
+            return kiln_reader_error_at(reader, root, key,
+                                        "must have one of `box` and `sphere`, found %s",
+                                        force->region.box ? "both" : "neither");
     }
     return true;
 }

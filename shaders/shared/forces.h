@@ -100,6 +100,20 @@ FN S(force_effect) forces_apart(SIM_PARAM uint i, float3 position, S(force_effec
     return y;
 }
 
+/* The least radius and the least size of eddies that a scene may give, m. In a node of a small
+ * scale they are not smaller either, since a particle near the middle would be thrown out. */
+#define FORCE_LEAST_SIZE 0.001f
+
+/* Returns a radius or a size of eddies in metres of the world. size: in the node of scale `scale`
+ * that a force of this kind lies in. That of a grid has no least. */
+FN float forces_size(uint kind, float size, float scale)
+{
+    EXACT float y = size * scale;
+    EXACT float least = kind == FORCE_FIELD || kind == FORCE_BAKED ? 0.0f : FORCE_LEAST_SIZE;
+    y = exact_max(y, least);
+    return y;
+}
+
 /* Returns the input of force i for a particle at a place in the node of the force. values: the
  * force's options that vary over the particle's life. */
 FN S(force_input) force_input_of(SIM_PARAM uint i, float3 position, S(force_values) values)
@@ -136,7 +150,8 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float3 velocity, S(valu
         EXACT float3 at = position;
         if (USES(USES_FORCES, FORCE_IN_NODE) && still_frame_is(STEP(forces[i].frame))) {
             at = still_frame_inside(STEP(forces[i].frame), position);
-            values.scale = values.scale * STEP(forces[i].frame.at.w);
+            values.scale =
+                forces_size(STEP(forces[i].kind), values.scale, STEP(forces[i].frame.at.w));
         }
         EXACT S(force_input) force = force_input_of(SIM i, at, values);
         EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);

@@ -235,7 +235,7 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "auto", "10", "-10", "[10, -10]");
     else if (type == &kiln_type_picture)
         ADD_ONE(c, "none", "\"scenes/textures/card.png\"");
-    else if (type == &kiln_type_mesh && row->parts == kiln_row_if_node_is_of_file)
+    else if (type == &kiln_type_gltf)
         /* with the rows that such a file needs, which are not written by themselves */
         ADD_ONE(c, "\"tests/gltf/nodes/nodes-growing.gltf\", node: Camera",
                 "\"tests/gltf/nodes/nodes-uneven.gltf\", node: Tip, animation: {speed: -1000}",
@@ -280,12 +280,12 @@ static bool is_chosen(struct choice *c, const struct kiln_option *row, int depth
     const bool needed = !row->fallback || row->type == &kiln_type_assets ||
                         row->type == &kiln_type_bursts || row->type == &kiln_type_map ||
                         row->type == &kiln_type_group || row->type == &kiln_type_image ||
-                        row->type == &kiln_type_mesh;
+                        row->type == &kiln_type_mesh || row->type == &kiln_type_gltf;
     if (row->is_unprinted || row->type == &kiln_type_text || row->type == &kiln_type_rational ||
         row->type == &kiln_type_clip || row->type == &kiln_type_object || depth > MOST_DEPTH)
         return !row->fallback;
     if (row->type == &kiln_type_part ||
-        (row->parts == kiln_row_if_node_is_of_file && row->type != &kiln_type_mesh))
+        (row->parts == kiln_row_if_node_is_of_file && row->type != &kiln_type_gltf))
         return false;
     return needed || take(c) % 4 == 3;
 }

@@ -92,7 +92,9 @@ static inline void check_rig(const struct kiln_rig *rig)
             const struct kiln_rig_pose pose = kiln_rig_pose_at(rig, node, &moment);
             double fov;
             (void)kiln_rig_camera_of(rig, node, &fov);
-            (void)kiln_rig_is_uniform(rig, node, moment.clip);
+            struct kiln_rig_scale scale;
+            require(!kiln_rig_find_scale(rig, node, moment.clip, &scale) || scale.taken > 0,
+                    "a scale that is taken");
             require(pose.scale > 0 && isfinite(pose.scale) && isfinite(pose.growth), "a scale");
             for (int c = 0; c < 3; c++)
                 require(isfinite(pose.at[c]) && isfinite(pose.ahead[c]) && isfinite(pose.up[c]) &&

@@ -219,6 +219,38 @@ static void grids_grow_with_their_node(void **state)
     assert_true(farthest("nodes: {a: {scale: 3}}\n", attached, plain) > 0.01);
 }
 
+/* A node of a small scale makes no radius and no eddy smaller than a scene may write it. */
+static void nothing_is_smaller_than_a_millimetre(void **state)
+{
+    (void)state;
+    static const char nodes[] = "nodes: {a: {position: [0, 0.2, 0], scale: 1e-6}}\n";
+    assert_true(farthest(nodes, "vortex: {attach: a, speed: 900, pull: 3}",
+                         "vortex: {position: [0, 0.2, 0], radius: 1 mm, speed: 900, pull: 3}") <
+                1e-3);
+    assert_true(farthest("nodes: {a: {scale: 0.001}}\n", "curl: {attach: a, scale: 0.5, pull: 3}",
+                         "curl: {scale: 1 mm, pull: 3}") < 1e-3);
+}
+
+/* Particles that are born around an attractor of such a node stay there. */
+static void no_attractor_empties_a_system(void **state)
+{
+    (void)state;
+    struct simulation run;
+    struct kiln_scene *scene =
+        load("kiln: 1\noutput: {frames: 60, fps: 60}\n"
+             "nodes: {a: {position: [0, 1, 0], scale: 1e-6}}\n"
+             "systems: {s: {emit: {rate: 900, attach: a, life: 9 s, speed: 0, from: {box: {}}},\n"
+             "  forces: [attract: {attach: a}]}}\n");
+    simulation_start(&run, scene, NULL, 1);
+    simulation_run(&run, 60);
+    uint32_t alive = 0;
+    for (uint32_t i = 0; i < run.pool.systems[0].capacity; i++)
+        alive += particle_is_alive(simulation_records(&run)[i]);
+    assert_int_equal(alive, 885); /* in 59 steps, 15 were born in each */
+    simulation_end(&run);
+    kiln_scene_destroy(&scene);
+}
+
 /* ---- closed forms ---------------------------------------------------------------------------- */
 
 /* Where a particle is and how fast it is, x + i z. A turn to the left around y is a factor of
@@ -309,6 +341,8 @@ int main(void)
         cmocka_unit_test(regions_have_nodes_of_their_own),
         cmocka_unit_test(eddies_move_and_grow_with_their_node),
         cmocka_unit_test(grids_grow_with_their_node),
+        cmocka_unit_test(nothing_is_smaller_than_a_millimetre),
+        cmocka_unit_test(no_attractor_empties_a_system),
         cmocka_unit_test(a_wind_turns_with_its_node),
         cmocka_unit_test(a_whirl_flies_with_its_node),
     };

@@ -444,7 +444,8 @@ static const struct bad winds[] = {
     {BOXED "of: [curl: {attach: n}]}}]}}\n",
      ":2:90: systems.a.forces.0.wind.of.0.curl.attach: unknown node 'n' (there are none)"},
     {BOXED "of: [curl: {region: {}}]}}]}}\n",
-     ":2:90: systems.a.forces.0.wind.of.0.curl.region: must have one of `box` and `sphere`"},
+     ":2:90: systems.a.forces.0.wind.of.0.curl.region: must have one of `box` and `sphere`, found "
+     "neither"},
     {BOXED "cells: 256, of: [curl: 1]}}]}}\n",
      ":2:77: systems.a.forces.0.wind.cells: wind, terrain and meshes that move particles have "
      "16974593 samples altogether; a scene has at most 4194304"},
@@ -472,7 +473,15 @@ static const struct bad sizes[] = {
     {WIDE "attach: n, of: [curl: 1]}}}]}}\n",
      ":2:72: systems.a.forces.0.wind.baked.attach: unknown node 'n' (there are none)"},
     {WIDE "region: {}, of: [curl: 1]}}}]}}\n",
-     ":2:72: systems.a.forces.0.wind.baked.region: must have one of `box` and `sphere`"},
+     ":2:72: systems.a.forces.0.wind.baked.region: must have one of `box` and `sphere`, found "
+     "neither"},
+    {WIDE "of: [curl: 1]}, attach: n}}]}}\n",
+     ":2:80: systems.a.forces.0.wind.attach: must not stand beside `baked`, which chooses the "
+     "kind; "
+     "its keys stand inside of it, such as wind.baked.attach"},
+    {"kiln: 1\nsystems: {a: {forces: [{wind: {field: baked, cells: 4, baked: {every: 2}}}]}}\n",
+     ":2:56: systems.a.forces.0.wind.baked: must not stand beside `field`, which chooses the kind; "
+     "its keys stand beside it, too, such as wind.every"},
     {WIDE "of: [1, 2]}}}]}}\n", ":2:69: systems.a.forces.0.wind.baked.of.0: expected {gravity, "
                                 "drag, curl, attract, vortex or wind: {...}}, found '1'"},
     {WIDE
@@ -495,8 +504,8 @@ static const struct bad sizes[] = {
     {"kiln: 1\nsystems: {a: {forces: [{wind: {baked: 32}}]}}\n",
      ":2:39: systems.a.forces.0.wind.baked: expected a mapping of keys, found '32'"},
     {"kiln: 1\nsystems: {a: {forces: [{wind: {baked: {}, pull: 2}}]}}\n",
-     ":2:32: systems.a.forces.0.wind.baked: unknown key (there are: velocity, pull, mode, attach, "
-     "region)"},
+     ":2:43: systems.a.forces.0.wind.pull: must not stand beside `baked`, which chooses the kind; "
+     "its keys stand inside of it, such as wind.baked.box"},
 };
 
 BAD_TEST(sizes)

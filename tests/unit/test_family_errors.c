@@ -5,6 +5,7 @@
 
 #include "support/bad_scenes.h"
 #include "support/cmocka.h"
+#include "support/scenes.h"
 
 #define CHILD(name, of, on) "  " name ": {emit: {parent: {system: " of ", on: " on "}}}\n"
 
@@ -133,14 +134,90 @@ static const struct bad families[] = {
      "      collide: {}}\n",
      ":4:51: systems.b.emit.parent.inherit.color: must be false for a system that paints with its "
      "own color"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n"
+     "  b: {emit: {parent: {system: a, inherit: {temperature: true}}}}\n",
+     ":4:57: systems.b.emit.parent.inherit.temperature: particles of 'a' have no temperature: set "
+     "systems.a.look.temperature"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {look: {temperature: {life: [900, 0]}}}\n"
+     "  b: {emit: {parent: {system: a, inherit: {temperature: true}}}}\n"
+     "  c: {emit: {parent: {system: b, inherit: {temperature: true}}}}\n",
+     ":5:57: systems.c.emit.parent.inherit.temperature: must be false, since particles of 'b' have "
+     "no temperature of their own"},
 };
 
+/* Keys of events that would do nothing. */
+static const struct bad events[] = {
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n" CHILD("b", "a", "{death: {impact: true}}"),
+     ":4:55: systems.b.emit.parent.on.death.impact: no impact ends particles of 'a': set "
+     "systems.a.collide.then to die"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {collide: {then: stop}}\n" CHILD("b", "a", "{death: {impact: true}}"),
+     ":4:55: systems.b.emit.parent.on.death.impact: no impact ends particles of 'a': set "
+     "systems.a.collide.then to die"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {collide: {then: die, chance: 0}}\n" CHILD("b", "a", "{death: {impact: true}}"),
+     ":4:55: systems.b.emit.parent.on.death.impact: no impact ends particles of 'a': set "
+     "systems.a.collide.then to die"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {collide: {}}\n" CHILD("b", "a", "{bounce: {count: 2, most: 4}}"),
+     ":4:64: systems.b.emit.parent.on.bounce.most: needs `every: true`; without it, the first "
+     "impact alone counts"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n" CHILD("b", "a", "{trail: {rate: 9, most: 4}}"),
+     ":4:62: systems.b.emit.parent.on.trail.most: needs `per_metre`; by the rate, the life of a "
+     "parent's particle bounds the number of its children"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n" CHILD("b", "a", "{trail: {rate: 9, per_metre: 4}}"),
+     ":4:46: systems.b.emit.parent.on.trail: must have one of `rate` and `per_metre`, found both"},
+    {"kiln: 1\n"
+     "systems:\n"
+     "  a: {}\n" CHILD("b", "a", "{trail: {rate: {random: [9, 20]}, per_metre: 4}}"),
+     ":4:46: systems.b.emit.parent.on.trail: must have one of `rate` and `per_metre`, found both"},
+    {"kiln: 1\n"
+     "systems: {a: {emit: {bursts: [{count: 3}, {count: 3, most: 2}]}}}\n",
+     ":2:60: systems.a.emit.bursts.1.most: needs `every`; without it, the burst is not repeated"},
+};
+
+/* What is refused with another value is not with its default, which a printed scene has. */
+static void defaults_are_allowed(void **state)
+{
+    (void)state;
+    struct kiln_scene *scene = load_scene(
+        "kiln: 1\n"
+        "systems:\n"
+        "  a: {collide: {dies: true}, look: {temperature: {age: {0 s: 0, 1 s: 900}}}}\n"
+        "  b: {collide: {then: die, chance: {life: [0, 1]}}}\n" CHILD(
+            "c", "a", "{death: {impact: true}}") CHILD("d", "b", "{death: {impact: true}}")
+            CHILD("e", "a", "{bounce: {every: false, most: 3}}")
+                CHILD("f", "a", "{trail: {rate: 9, per_metre: 0, most: 256}}")
+                    CHILD("g", "a",
+                          "{trail: {rate: 20, per_metre: 9, most: 2}}") "  h: {emit: {parent: "
+                                                                        "{system: a, inherit: "
+                                                                        "{temperature: true}}}}\n",
+        NULL);
+    kiln_scene_destroy(&scene);
+}
+
 BAD_TEST(families)
+BAD_TEST(events)
 
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_families),
+        cmocka_unit_test(bad_events),
+        cmocka_unit_test(defaults_are_allowed),
     };
     return cmocka_run_group_tests_name("family_errors", tests, NULL, NULL);
 }

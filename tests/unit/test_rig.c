@@ -349,12 +349,17 @@ static void bad_nodes(void **state)
                    ":3:19: nodes.a.node: needs `file`, whose node it is");
     expect_refused("nodes: {a: {animation: {clip: go}}}\n",
                    ":3:24: nodes.a.animation: needs `file`, whose animation it is");
+    expect_refused("nodes: {a: {mesh: b, joint: hips, animation: {clip: go}}}\n",
+                   ":3:46: nodes.a.animation: must be left out, since the joint follows the "
+                   "animation of its mesh, which stands in backdrop.objects");
     expect_refused("nodes: {a: {file: nodes-linear.gltf, node: Camra}}\n",
-                   ":3:44: nodes.a.node: 'nodes-linear.gltf': no node is called 'Camra'; the file "
-                   "has 'Stage', 'Dolly', 'Crane', 'Camera', 'Flat'");
+                   ":3:44: nodes.a.node: 'nodes-linear.gltf': no node is called 'Camra' or has "
+                   "this number; the file has 'Stage', 'Dolly', 'Crane', 'Camera', 'Flat', by "
+                   "number 0 to 4");
     expect_refused("nodes: {a: {file: nodes-linear.gltf, node: 9}}\n",
-                   ":3:44: nodes.a.node: 'nodes-linear.gltf': no node is called '9'; the file has "
-                   "'Stage', 'Dolly', 'Crane', 'Camera', 'Flat'");
+                   ":3:44: nodes.a.node: 'nodes-linear.gltf': no node is called '9' or has this "
+                   "number; the file has 'Stage', 'Dolly', 'Crane', 'Camera', 'Flat', by number 0 "
+                   "to 4");
     expect_refused("nodes: {a: {file: nodes-linear.gltf, node: 3, animation: {clip: run}}}\n",
                    ":3:65: nodes.a.animation.clip: 'nodes-linear.gltf': no animation is called "
                    "'run'; the file has 'Take 1', 'Take 2', by number 0 to 1");
@@ -415,8 +420,51 @@ static void bad_joints(void **state)
     expect_refused(
         "nodes: {a: {mesh: b, joint: hips}}\n"
         "backdrop: {objects: {b: {mesh: {file: nodes-linear.gltf, attach: a}}}}\n",
-        ":3:19: nodes.a.mesh: the node is its own parent: a, a; the first node of a chain "
-        "has no parent");
+        ":4:66: backdrop.objects.b.mesh.attach: the object would lie in a joint of its own mesh, "
+        "'a'; it may be attached to a node that does not lie in it");
+    expect_refused(
+        "nodes: {up: {parent: mid}, mid: {parent: a}, a: {mesh: 1, joint: hips}}\n"
+        "backdrop: {objects: [sphere: {}, mesh: {attach: up, file: nodes-linear.gltf}]}\n",
+        ":4:49: backdrop.objects.1.mesh.attach: the object would lie in a joint of its own mesh, "
+        "'a', by way of up, mid; it may be attached to a node that does not lie in it");
+}
+
+#define OF_LIST "backdrop: {objects: [sphere: {}, mesh: {file: nodes-linear.gltf}]}\n"
+
+/* An object of a list has no name, and is named by its number. */
+static void bad_numbers_of_meshes(void **state)
+{
+    (void)state;
+    expect_refused("nodes: {a: {mesh: 0, joint: hips}}\n",
+                   ":3:19: nodes.a.mesh: backdrop.objects has no objects");
+    expect_refused("nodes: {a: {mesh: 2, joint: hips}}\n" OF_LIST,
+                   ":3:19: nodes.a.mesh: backdrop.objects has no object 2; allowed is from 0 to 1");
+    expect_refused("nodes: {a: {mesh: 0, joint: hips}}\n" OF_LIST,
+                   ":3:19: nodes.a.mesh: must be a mesh; object 0 is of another kind");
+    expect_refused("nodes: {a: {mesh: walker, joint: hips}}\n" OF_LIST,
+                   ":3:19: nodes.a.mesh: unknown mesh 'walker' in backdrop.objects (no mesh has "
+                   "a name; allowed is a number from 0 to 1)");
+}
+
+static void a_mesh_of_a_list_has_a_number(void **state)
+{
+    (void)state;
+    const struct rig rig = still_rig();
+    write_file("walker.gltf", to_gltf(&rig, &SOUND));
+    struct kiln_scene *scenes[2] = {
+        load_in(folder, SCENE "nodes: {a: {mesh: walker, joint: chest}}\n"
+                              "backdrop: {objects: {ball: {sphere: {}}, walker: {mesh: {file: "
+                              "walker.gltf, position: [1, 2, 3]}}}}\n"),
+        load_in(folder, SCENE "nodes: {a: {mesh: 1, joint: chest}}\n"
+                              "backdrop: {objects: [sphere: {}, mesh: {file: walker.gltf, "
+                              "position: [1, 2, 3]}]}\n"),
+    };
+    const struct kiln_node_frame named = kiln_node_frame_at(scenes[0], 0, 0, 0);
+    const struct kiln_node_frame numbered = kiln_node_frame_at(scenes[1], 0, 0, 0);
+    assert_memory_equal(&named, &numbered, sizeof named);
+    assert_true(named.at[1] > 1);
+    for (int i = 0; i < 2; i++)
+        kiln_scene_destroy(&scenes[i]);
 }
 
 static void a_joint_that_is_not_there(void **state)
@@ -430,8 +478,9 @@ static void a_joint_that_is_not_there(void **state)
                              "backdrop: {objects: {walker: {mesh: {file: walker.gltf}}}}\n",
                        &error));
     expect_error(&error, KILN_INVALID_INPUT,
-                 SCENE_NAME ":3:34: nodes.a.joint: 'walker.gltf': no joint is called 'foot'; the "
-                            "file has 'hips', 'chest', 'head'");
+                 SCENE_NAME ":3:34: nodes.a.joint: 'walker.gltf': no joint is called 'foot' or has "
+                            "this number; the file has 'hips', 'chest', 'head', by some of "
+                            "the numbers 0 to 4");
 }
 
 /* A glTF file of these nodes and nothing else. */
@@ -542,6 +591,8 @@ int main(void)
         cmocka_unit_test(bad_nodes),
         cmocka_unit_test(a_field_of_view_that_no_scene_has),
         cmocka_unit_test(bad_joints),
+        cmocka_unit_test(bad_numbers_of_meshes),
+        cmocka_unit_test(a_mesh_of_a_list_has_a_number),
         cmocka_unit_test(a_joint_that_is_not_there),
         cmocka_unit_test(hostile_files),
     };

@@ -199,10 +199,11 @@ static const struct bad types[] = {
      "pushes a particle that has stopped"},
     {"kiln: 1\n"
      "systems: {a: {forces: [drag: {region: {falloff: 1 m}}]}}\n",
-     ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`"},
+     ":2:39: systems.a.forces.0.drag.region: must have one of `box` and `sphere`, found "
+     "neither"},
     {"kiln: 1\n"
      "systems: {a: {forces: [gravity: {region: {box: {}, sphere: {}}}]}}\n",
-     ":2:42: systems.a.forces.0.gravity.region: must have one of `box` and `sphere`"},
+     ":2:42: systems.a.forces.0.gravity.region: must have one of `box` and `sphere`, found both"},
     {"kiln: 1\n"
      "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "

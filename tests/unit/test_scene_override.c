@@ -1,6 +1,7 @@
 /* lib/scene: --set key=value. */
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "scene/scene.h"
@@ -169,6 +170,40 @@ static void bad_overrides_are_named(void **state)
     }
 }
 
+/* A baked wind has two spellings, and an override follows that of the scene. */
+static void overrides_follow_the_spelling_of_a_wind(void **state)
+{
+    (void)state;
+#define OF "box: {size: [1, 1, 1]}, of: [curl: 1]"
+    static const struct {
+        const char *wind, *override, *message;
+    } cases[] = {
+        {"{baked: {" OF "}}", "systems.a.forces.0.wind.every=2",
+         "--set systems.a.forces.0.wind.every: must not stand beside `baked`, which chooses the "
+         "kind; "
+         "its keys stand inside of it, such as wind.baked.every"},
+        {"{field: baked, " OF "}", "systems.a.forces.0.wind.baked.every=2",
+         "--set systems.a.forces.0.wind.baked.every: systems.a.forces.0.wind.baked: must not stand "
+         "beside `field`, which chooses the kind; its keys stand beside it, too, such as "
+         "wind.every"},
+        {"{baked: {" OF "}}", "systems.a.forces.0.wind.baked.every=2", NULL},
+        {"{field: baked, " OF "}", "systems.a.forces.0.wind.every=2", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *const overrides[] = {cases[i].override, NULL};
+        struct kiln_error error = {0};
+        char whole[256];
+        snprintf(whole, sizeof whole, "kiln: 1\nsystems: {a: {forces: [wind: %s]}}\n",
+                 cases[i].wind);
+        struct kiln_scene *scene = try_scene(whole, overrides, &error);
+        if (cases[i].message)
+            expect_error(&error, KILN_INVALID_INPUT, "%s", cases[i].message);
+        else
+            assert_int_equal(scene->systems[0].forces[0].every, 2);
+        kiln_scene_destroy(&scene);
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -176,6 +211,7 @@ int main(void)
         cmocka_unit_test(stars_name_every_entry),
         cmocka_unit_test(later_overrides_win),
         cmocka_unit_test(bad_overrides_are_named),
+        cmocka_unit_test(overrides_follow_the_spelling_of_a_wind),
     };
     return cmocka_run_group_tests_name("scene_override", tests, NULL, NULL);
 }

@@ -191,16 +191,25 @@ static bool refuse_node(const struct kiln_rig *rig, const char *node, bool joint
 {
     struct known known = {.length = 0};
     bool any_joint = false;
-    for (uint32_t i = 0; i < rig->node_count; i++)
+    uint32_t least = UINT32_MAX, most = 0;
+    for (uint32_t i = 0; i < rig->node_count; i++) {
         any_joint = any_joint || rig->nodes[i].is_joint;
+        least = rig->nodes[i].number < least ? rig->nodes[i].number : least;
+        most = rig->nodes[i].number > most ? rig->nodes[i].number : most;
+    }
+    /* Nodes of other scenes of the file have numbers, too, and are not in the rig. */
+    const bool has_gaps = most - least + 1 != rig->node_count;
     for (uint32_t i = 0; i < rig->node_count; i++) {
         if (!(joint && any_joint) || rig->nodes[i].is_joint)
             add_known(&known, rig->nodes[i].name);
     }
-    return kiln_error_set(error, KILN_INVALID_INPUT, "%s: no %s is called '%.63s'; %s%s%s", name,
-                          joint ? "joint" : "node", node,
-                          known.length ? "the file has " : "none has a name, so numbers are needed",
-                          known.text, known.left_out ? " and others" : "");
+    return kiln_error_set(error, KILN_INVALID_INPUT,
+                          "%s: no %s is called '%.63s' or has this number; the file has %s%s, "
+                          "by %s %u to %u",
+                          name, joint ? "joint" : "node", node,
+                          known.length ? known.text : "none with a name",
+                          known.left_out ? " and others" : "",
+                          has_gaps ? "some of the numbers" : "number", least, most);
 }
 
 static uint32_t depth_of(const struct kiln_rig *rig, uint32_t node)

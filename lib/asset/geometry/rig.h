@@ -55,9 +55,21 @@ float kiln_rig_clip_length(const struct kiln_rig *rig, uint32_t clip);
  */
 enum kiln_rig_camera kiln_rig_camera_of(const struct kiln_rig *rig, uint32_t node, double *fov_rad);
 
-/* Returns whether a node and those above it have one scale along all axes, at rest and at all keys
- * of a clip, and do not mirror. */
-bool kiln_rig_is_uniform(const struct kiln_rig *rig, uint32_t node, uint32_t clip);
+/* The least scale of a pose; a node that has less, or none, gets this one. */
+#define KILN_RIG_LEAST_SCALE 1e-6
+
+/* A scale of a node of a file that differs between its axes, mirrors or is too small. */
+struct kiln_rig_scale {
+    const char *name; /* of the node, or "" */
+    uint32_t number;  /* of the node, in the file */
+    double axes[3];
+    double taken; /* the one scale that a pose has instead */
+};
+
+/* Finds such a scale of a node or of those above it, at rest or at a key of a clip. False: there is
+ * none. */
+bool kiln_rig_find_scale(const struct kiln_rig *rig, uint32_t node, uint32_t clip,
+                         struct kiln_rig_scale *found);
 
 /* A moment of a clip. */
 struct kiln_rig_moment {

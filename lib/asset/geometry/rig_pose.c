@@ -11,8 +11,7 @@
 
 #include "asset/geometry/rig_kept.h"
 
-/* The scale of a pose is within these bounds. */
-static const double LEAST_SCALE = 1e-6, MOST_SCALE = 1e6;
+static const double MOST_SCALE = 1e6; /* of a pose */
 /* Ratio of two scales below which they count as one, since programs round them. */
 static const double NEARLY_ONE = 1.001;
 
@@ -281,11 +280,14 @@ static double bounded(double x, double most)
     return x >= -most ? (x <= most ? x : most) : (x < -most ? -most : 0);
 }
 
+/* The length below which a vector has no direction. */
+static const double LEAST_LENGTH = 1e-9;
+
 /* Scales a vector to length 1, and makes its rate that of the direction. False: it has none. */
 static bool make_direction(double v[3], double rate[3], double *length, double *growth)
 {
     *length = sqrt(dot(v, v));
-    if (!(*length > 1e-9 && *length < 1e18))
+    if (!(*length > LEAST_LENGTH && *length < 1e18))
         return false;
     for (int c = 0; c < 3; c++) {
         v[c] /= *length;
@@ -335,41 +337,62 @@ struct kiln_rig_pose kiln_rig_pose_at(const struct kiln_rig *rig, uint32_t node,
         const struct transform outer = local_of(rig, rig->nodes[node].parent, moment);
         all = product(&outer, &all);
     }
-    struct kiln_rig_pose pose = {.scale = LEAST_SCALE};
+    struct kiln_rig_pose pose = {.scale = KILN_RIG_LEAST_SCALE};
     if (!find_frame(&all, &pose))
-        pose = (struct kiln_rig_pose){.ahead = {0, 0, 1}, .up = {0, 1, 0}, .scale = LEAST_SCALE};
+        pose = (struct kiln_rig_pose){
+            .ahead = {0, 0, 1}, .up = {0, 1, 0}, .scale = KILN_RIG_LEAST_SCALE};
     for (int c = 0; c < 3; c++) {
         pose.at[c] = bounded(all.at[c], most);
         pose.velocity[c] = bounded(speed * all.velocity[c], most);
         pose.spin[c] = bounded(speed * pose.spin[c], most);
     }
     pose.growth = bounded(speed * pose.growth, most);
-    pose.scale = pose.scale > LEAST_SCALE ? bounded(pose.scale, MOST_SCALE) : LEAST_SCALE;
+    pose.scale =
+        pose.scale > KILN_RIG_LEAST_SCALE ? bounded(pose.scale, MOST_SCALE) : KILN_RIG_LEAST_SCALE;
     return pose;
 }
 
 /* ---- one scale for all axes ------------------------------------------------------------------ */
 
-static bool is_one_scale(const double scale[3])
+static bool is_one_scale(const double axes[3])
 {
-    const double least = fmin(fmin(scale[0], scale[1]), scale[2]);
-    const double most = fmax(fmax(scale[0], scale[1]), scale[2]);
-    return least >= 0 && most <= NEARLY_ONE * least;
+    const double least = fmin(fmin(axes[0], axes[1]), axes[2]);
+    const double most = fmax(fmax(axes[0], axes[1]), axes[2]);
+    return least >= KILN_RIG_LEAST_SCALE && most <= NEARLY_ONE * least;
 }
 
-bool kiln_rig_is_uniform(const struct kiln_rig *rig, uint32_t node, uint32_t clip)
+/* Returns whether a scale is one along all axes; otherwise tells of it. */
+static bool check_scale(const struct kiln_rig_node *node, const double axes[3],
+                        struct kiln_rig_scale *found)
+{
+    if (is_one_scale(axes))
+        return true;
+    const bool has_frame = fabs(axes[1]) > LEAST_LENGTH && fabs(axes[2]) > LEAST_LENGTH;
+    found->name = node->name;
+    found->number = node->number;
+    memcpy(found->axes, axes, sizeof found->axes);
+    found->taken = has_frame ? fmax(fabs(axes[2]), KILN_RIG_LEAST_SCALE) : KILN_RIG_LEAST_SCALE;
+    return false;
+}
+
+bool kiln_rig_find_scale(const struct kiln_rig *rig, uint32_t node, uint32_t clip,
+                         struct kiln_rig_scale *found)
 {
     for (;; node = rig->nodes[node].parent) {
+        const struct kiln_rig_node *at = &rig->nodes[node];
         const struct kiln_skin_channel *channel = find_channel(rig, clip, node);
         const struct kiln_skin_track *track = channel ? &channel->tracks[KILN_CHANNEL_SCALE] : NULL;
-        bool good = (track && track->count > 0) || is_one_scale(rig->nodes[node].scale);
-        for (uint32_t i = 0; track && i < track->count; i++) {
+        const uint32_t count = track ? track->count : 0;
+        if (count == 0 && !check_scale(at, at->scale, found))
+            return true;
+        for (uint32_t i = 0; i < count; i++) {
             const uint32_t parts = kiln_skin_parts(track);
-            double scale[4];
-            get_value(&rig->keys[track->first + i], 0, false, scale);
-            good = good && (i % parts != parts / 2 || is_one_scale(scale));
+            double axes[4];
+            get_value(&rig->keys[track->first + i], 0, false, axes);
+            if (i % parts == parts / 2 && !check_scale(at, axes, found))
+                return true;
         }
-        if (!good || rig->nodes[node].parent == node)
-            return good;
+        if (at->parent == node)
+            return false;
     }
 }

@@ -132,12 +132,13 @@ static inline void add_baked(const struct kiln_sim *sim, struct kiln_block *b, u
     add_effect(b, i, effect)
 
 /* Takes the places of all lanes into the node of the present force. */
-static inline void enter_node(struct kiln_block *b, const struct kiln_still_frame frame)
+static inline void enter_node(struct kiln_block *b, const struct kiln_still_frame frame,
+                              uint32_t kind)
 {
     b->kept_at = b->at;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         kiln_set3(&b->at, i, still_frame_inside(frame, kiln_get3(&b->at, i)));
-        b->scale[i] = b->scale[i] * frame.at.w;
+        b->scale[i] = forces_size(kind, b->scale[i], frame.at.w);
     }
 }
 
@@ -151,7 +152,7 @@ static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, u
     find_values(sim, force->quadratic, b, b->braking);
     find_values(sim, force->scale, b, b->scale);
     if (still_frame_is(force->frame))
-        enter_node(b, force->frame);
+        enter_node(b, force->frame, force->kind);
     switch (force->kind) {
     case FORCE_GRAVITY:
         ADD_EFFECT(force_gravity(input_at(sim, b, i, number)));

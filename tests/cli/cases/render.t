@@ -105,6 +105,18 @@ $ for sort in cpu radix bitonic; do
 1|device: <device>
 1|bitonic.png: 1 frame in <s> s
 $ cmp cpu.png radix.png && cmp cpu.png bitonic.png
+Of the frame at 0 s alone, the particles are counted that it shows, which its state does not have yet.
+$ printf 'kiln: 1\noutput: {size: [32, 18], frames: 1}\nsystems: {a: {emit: {bursts: {0 s: 12}}}}\n' >one.yaml
+$ for technique in cpu inplace; do
+>     kiln render one.yaml -o none --technique simulate=$technique --stats | grep -E 'slots|state'
+> done
+1|  particles    12 alive, 12 slots, 480 bytes (40.0 a slot)
+1|  state        0000000000000000
+1|  particles    12 alive, 12 slots, 480 bytes (40.0 a slot)
+1|  state        0000000000000000
+$ kiln render one.yaml -o none --device cpu --json --stats | jq -c 'select(.event != "device") | [.event, .alive]'
+1|["frame",12]
+1|["result",12]
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
 2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); allowed are cpu, inplace, pingpong, feedback, texels, auto

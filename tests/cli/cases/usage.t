@@ -132,6 +132,17 @@ $ kiln help scene systems.fire.look.spin
 1|    may vary over time, over life or at random
 1|    default: 0 deg/s
 1|
+$ kiln help scene nodes.NAME.file
+1|nodes.NAME.file
+1|    A glTF or GLB file, whose space is that of position, rotation and scale. The node then is where
+1|    a node of the file is.
+1|    the path of a glTF or GLB file, from the scene's folder and inside it, or none
+1|    default: none
+1|
+$ kiln help scene nodes.NAME.node | sed -n 4p
+1|    the name of a node in the file, or its number there from 0, or none
+$ kiln help scene nodes.NAME.mesh | sed -n 4p
+1|    the name of an object of the backdrop, or its number from 0, or none
 $ kiln help scene camera.shutter --search phase | grep -c '^camera'
 1|1
 $ kiln help meteor

@@ -76,4 +76,7 @@ A node of a scene has one scale, and a node of a file may have three.
 
 $ echo '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "wide", "scale": [3, 1, 1]}]}' >scenes/wide.gltf
 $ kiln check scenes/tiny.yaml --set "nodes={a: {file: wide.gltf, node: wide}}" >/dev/null
-2|kiln: warning: --set nodes: nodes.a.node: the node of the file, or one above it, mirrors or has a scale that differs between its axes; a node of a scene has one scale, so the scale along z is taken
+2|kiln: warning: --set nodes: nodes.a.node: node 'wide' of the file has the scale [3, 1, 1]; a node of a scene has one scale, 1e-06 at least, so 1 is taken
+$ echo '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"scale": [0, 0, 0], "children": [1]}, {"name": "eye"}]}' >scenes/flat.gltf
+$ kiln check scenes/tiny.yaml --set "nodes={a: {file: flat.gltf, node: eye}}" >/dev/null
+2|kiln: warning: --set nodes: nodes.a.node: node 0 of the file has the scale [0, 0, 0]; a node of a scene has one scale, 1e-06 at least, so 1e-06 is taken
