@@ -14,6 +14,7 @@ enum kiln_footprint_part {
     KILN_FOOTPRINT_OBJECTS,   /* meshes, their paint, terrain, and grids that move particles */
     KILN_FOOTPRINT_LIGHTS,    /* lights that cast shadows */
     KILN_FOOTPRINT_BACKDROP,  /* pictures of floor and sky */
+    KILN_FOOTPRINT_GAS,       /* cells of gas */
     KILN_FOOTPRINT_PARTS,     /* number of parts */
 };
 

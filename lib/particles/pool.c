@@ -1,5 +1,5 @@
 /* This file creates, copies and frees the pool, which is the state of a simulation: the records of
- * all particles, the slots that each system owns, spins, and painted textures (canvases).
+ * all particles, the slots that each system owns, spins, painted textures (canvases), and gas.
  *
  * The frame loop (lib/frame/loop.c) creates a pool at its set-up, and copies a pool when it
  * continues from the state of another loop. Shaders read records and spins in the std430 layout, so
@@ -9,6 +9,8 @@
 
 #include <assert.h>
 #include <string.h>
+
+#include "base/error.h"
 
 static_assert(sizeof(struct kiln_particle) == 32, "std430");
 static_assert(sizeof(struct kiln_spin) == 32, "std430");
@@ -40,6 +42,9 @@ bool kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device,
         if (!kiln_canvas_init(&pool->canvases[i], shape->edge, shape->slot_count, error))
             return false;
     }
+    pool->gas_count = layout->gas_count;
+    for (uint32_t i = 0; i < layout->gas_count; i++)
+        kiln_gas_init(&pool->gas[i], &layout->gas[i]);
     return true;
 }
 
@@ -49,6 +54,8 @@ void kiln_pool_finish(struct kiln_pool *pool)
     kiln_buffer_finish(&pool->spins);
     for (uint32_t i = 0; i < pool->canvas_count; i++)
         kiln_canvas_finish(&pool->canvases[i]);
+    for (uint32_t i = 0; i < pool->gas_count; i++)
+        kiln_gas_finish(&pool->gas[i]);
     *pool = (struct kiln_pool){.system_count = 0};
 }
 
@@ -93,6 +100,10 @@ bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_er
         return false;
     for (uint32_t i = 0; i < from->canvas_count; i++)
         kiln_canvas_copy(&to->canvases[i], &from->canvases[i]);
+    for (uint32_t i = 0; i < from->gas_count; i++) {
+        if (!kiln_gas_copy(&to->gas[i], &from->gas[i]))
+            return kiln_error_no_memory(error, "a copy of gas");
+    }
     return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "gpu/buffer.h"
 #include "particles/canvas.h"
+#include "particles/gas.h"
 #include "shared/limits.h"
 #include "shared/particle.h"
 
@@ -37,6 +38,9 @@ struct kiln_pool {
     /* Painted textures, in the order of the scene's meshes that take paint. */
     struct kiln_canvas canvases[KILN_MAX_MESHES];
     uint32_t canvas_count;
+
+    struct kiln_gas gas[KILN_MAX_GAS]; /* domains of gas, in the order of the scene */
+    uint32_t gas_count;
 };
 
 /* Describes what a pool holds; kiln_scene_pool_layout makes it from a scene. */
@@ -47,10 +51,12 @@ struct kiln_pool_layout {
     bool travels[KILN_MAX_SYSTEMS];        /* whether they have a way */
     uint32_t canvas_count;
     struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
+    uint32_t gas_count;
+    struct kiln_gas_shape gas[KILN_MAX_GAS];
 };
 
-/* Initialises a pool without particles and paint. If device is NULL, records and spins are on the
- * host only. Fails if memory for paint is short; kiln_pool_finish frees the pool, also after a
+/* Initialises a pool without particles, paint and gas. If device is NULL, records and spins are on
+ * the host only. Fails if memory for paint is short; kiln_pool_finish frees the pool, also after a
  * failure. */
 bool kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device,
                     const struct kiln_pool_layout *layout, struct kiln_error *error);
@@ -59,7 +65,7 @@ bool kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device,
 void kiln_pool_footprint(const struct kiln_pool_layout *layout, struct kiln_footprint *footprint);
 void kiln_pool_finish(struct kiln_pool *pool);
 
-/* Copies particles, spins and paint to another pool of the same layout, in host memory. */
+/* Copies particles, spins, paint and gas to another pool of the same layout, in host memory. */
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
 
 /* Copies records and spins to a pool of the same device, capacities and spins. Paint and counts of

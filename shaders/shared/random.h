@@ -59,6 +59,12 @@ FN uint random_noise_key(uint seed)
     return random_key(seed, RANDOM_NOISE_NUMBER);
 }
 
+/* Returns the key of a domain of gas. */
+FN uint random_gas_key(uint seed, uint domain)
+{
+    return random_key(seed ^ 0x67617300u, domain);
+}
+
 /* Returns the stream of a particle; no two particles of a system share one. */
 FN uint random_stream(uint key, uint serial)
 {
