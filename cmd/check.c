@@ -90,6 +90,21 @@ static void print_mesh(void *user, const struct kiln_mesh_info *info)
     print_lines(info->notes, "note: ");
 }
 
+/* Prints how large a domain of gas is, as a YAML comment. */
+static void print_gas(void *user, const struct kiln_gas_info *info)
+{
+    (void)user;
+    printf("# gas %s: ", info->name);
+    if (!info->enabled) {
+        printf("not enabled\n");
+        return;
+    }
+    printf("%" PRIu32 " x %" PRIu32 " x %" PRIu32 " cells of %.4g m, up to %" PRIu64
+           " MiB, %" PRIu32 " step%s or more in each of the scene\n",
+           info->cells[0], info->cells[1], info->cells[2], info->cell_m, info->memory_bytes >> 20,
+           info->substeps, info->substeps == 1 ? "" : "s");
+}
+
 /* Prints the hash of a scene, or the scene and its work. With several scenes, the path is printed,
  * too. Returns false when printing failed. */
 static bool print_scene(const struct kiln_scene *scene, const char *path,
@@ -110,7 +125,10 @@ static bool print_scene(const struct kiln_scene *scene, const char *path,
     const bool printed = arguments_flag(arguments, "origin")
                              ? kiln_scene_print_origins(scene, stdout)
                              : kiln_scene_print(scene, stdout);
-    return printed && kiln_scene_visit_meshes(scene, print_mesh, NULL) && print_work(&info);
+    if (!printed || !kiln_scene_visit_meshes(scene, print_mesh, NULL))
+        return false;
+    kiln_scene_visit_gas(scene, print_gas, NULL);
+    return print_work(&info);
 }
 
 static int run(const struct arguments *arguments)
@@ -158,7 +176,8 @@ const struct command check_command = {
         "standard input, whose files lie below the working directory. The output is a scene file "
         "that renders to the same pictures. Comments at its end tell what its meshes are (their "
         "size, whether they are closed, their joints, clips and materials, and what is left out of "
-        "them), and the work of the whole clip: steps, particles at once, and memory. The memory "
+        "them), how large its domains of gas are, and the work of the whole clip: steps, particles "
+        "at once, and memory. The memory "
         "is the most that rendering without OpenGL may take, encoders left out. After a wrong "
         "scene is reported, the other scenes are checked all the same. A scene that asks for more "
         "than --limits allow ends with exit code 8.",

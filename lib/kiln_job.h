@@ -63,6 +63,72 @@ KILN_API bool kiln_bake(struct kiln_device *device, const struct kiln_scene *sce
                         const struct kiln_bake_params *params, struct kiln_bake_stats *stats,
                         struct kiln_error *error);
 
+/* ---- Exporting gas -------------------------------------------------------------------------- */
+
+enum kiln_up { KILN_UP_Y, KILN_UP_Z };
+
+/* A file of an export, which is whole. */
+struct kiln_exported {
+    size_t size;
+    uint32_t frame;
+    uint32_t done, total; /* files that this job has written, and will have written */
+    uint64_t bytes;       /* size of the file */
+    uint64_t voxels;      /* active voxels of the density */
+    double elapsed_s;     /* since the start */
+    const char *gas;      /* name of the domain, valid until the callback returns */
+    const char *file;     /* path, valid until the callback returns */
+};
+
+struct kiln_export_params {
+    size_t size;
+    const char *output; /* "gas_####.vdb"; "{gas}" in it stands for the name of the domain */
+    const char *gas;    /* name of the only domain to export; NULL: all that are enabled */
+    const struct kiln_frame_range *ranges; /* ascending; none: all frames */
+    size_t range_count;
+    enum kiln_up up;    /* the axis of the files that points up: Y as in Houdini, Z as in Blender */
+    bool half;          /* values are written as halves, else as floats */
+    bool unit;          /* temperatures are from 0 to 1, else in kelvin */
+    double cutoff;      /* voxels with less density, temperature (0 to 1) and flame are left out */
+    const char *states; /* a folder of kiln_bake to start from, or NULL */
+    const char *const *techniques; /* "stage=name" */
+    size_t technique_count;
+    uint32_t threads; /* 0 takes one a core */
+    bool overwrite;   /* replace files that exist; without it, such a file is KILN_USAGE */
+    void (*exported)(void *user, const struct kiln_exported *file); /* called for each, or NULL */
+    bool (*stop)(void *user); /* called between steps and parts of files; true ends with
+                                 KILN_INTERRUPTED */
+    void *user;
+    const struct kiln_cancel *cancel; /* NULL: nobody cancels */
+    struct kiln_log log;
+};
+
+static inline struct kiln_export_params kiln_export_defaults(void)
+{
+    struct kiln_export_params params;
+    memset(&params, 0, sizeof params);
+    params.size = sizeof params;
+    params.cutoff = 0.001;
+    return params;
+}
+
+struct kiln_export_stats {
+    size_t size;
+    uint32_t frames, files;
+    uint64_t steps; /* steps that this run simulated */
+    uint64_t bytes; /* size of the files */
+    double total_s;
+    char first_file[KILN_PATH_SIZE];
+};
+KILN_EMPTY(kiln_export_stats, kiln_export_stats_empty)
+
+/* Steps a scene through frames and writes its gas as OpenVDB files, one for each frame and domain,
+ * each with the grids density, temperature, flame and vel, and Cd if smoke has colours of its own.
+ * A file appears under its name only when it is whole. `stats` may be NULL. KILN_USAGE for a scene
+ * without gas, or the errors of kiln_render. */
+KILN_API bool kiln_export(struct kiln_device *device, const struct kiln_scene *scene,
+                          const struct kiln_export_params *params, struct kiln_export_stats *stats,
+                          struct kiln_error *error);
+
 /* ---- Joining -------------------------------------------------------------------------------- */
 
 struct kiln_join_params {

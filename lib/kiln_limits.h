@@ -22,7 +22,9 @@ extern "C" {
     X(asset_pixels, COUNT, "decoded pixels of pictures")                                           \
     X(asset_bytes, BYTES, "of files that the scene names")                                         \
     X(triangles, COUNT, "triangles of meshes")                                                     \
-    X(output, BYTES, "of output")
+    X(output, BYTES, "of output")                                                                  \
+    X(gas_cells, COUNT, "cells of gas")                                                            \
+    X(gas_steps, COUNT, "cells of gas in all steps")
 
 enum kiln_limit {
 #define KILN_LIMIT_ID(name, unit, noun) KILN_LIMIT_##name,

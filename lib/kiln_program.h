@@ -38,6 +38,11 @@ void kiln_claims_visit_read(const struct kiln_claims *claims,
 bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
                        struct kiln_claims *claims, struct kiln_error *error);
 
+/* Does the same for an export, whose files may not exist unless they are overwritten. kiln_export
+ * makes this check for its own job. */
+bool kiln_export_claim(const struct kiln_scene *scene, const struct kiln_export_params *params,
+                       struct kiln_claims *claims, struct kiln_error *error);
+
 /* Does what kiln_compare does, in a call that also writes `file` (NULL: it does not) for an option:
  * KILN_USAGE where that file is compared or written as well. */
 bool kiln_compare_with_output(const struct kiln_compare_params *params, const char *file,
@@ -87,7 +92,7 @@ const char *kiln_scene_introduction(void);
  * enters the root. Such a file is read only if it lies there (kiln_scene_load). */
 bool kiln_scene_is_below(const char *path, const char *asset_root);
 
-/* Visits the names of the entries of `key`, "systems" or "params", in a scene file and its
+/* Visits the names of the entries of `key`, such as "systems", in a scene file and its
  * includes, even if the scene is not valid. Returns false with the error of kiln_scene_load when a
  * file cannot be read as YAML. */
 bool kiln_scene_visit_names(const char *path, const char *key,
@@ -121,6 +126,20 @@ struct kiln_mesh_info {
 bool kiln_scene_visit_meshes(const struct kiln_scene *scene,
                              void (*visit)(void *user, const struct kiln_mesh_info *info),
                              void *user);
+
+/* A domain of gas of a scene. */
+struct kiln_gas_info {
+    const char *name;
+    bool enabled;
+    uint32_t cells[3];
+    double cell_m;         /* m: edge of a cell */
+    uint64_t memory_bytes; /* that it takes where gas fills it */
+    uint32_t substeps;     /* least steps of the gas in one of the scene */
+};
+
+/* Visits the domains of gas of a scene in their order. */
+void kiln_scene_visit_gas(const struct kiln_scene *scene,
+                          void (*visit)(void *user, const struct kiln_gas_info *info), void *user);
 
 /* Writes the techniques of each stage and their purposes, for people. */
 bool kiln_write_techniques(FILE *out);

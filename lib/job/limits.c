@@ -33,6 +33,8 @@ static const struct row {
     [KILN_LIMIT_asset_bytes] = {"1 GiB", "Bytes of the files that the scene names."},
     [KILN_LIMIT_triangles] = {"2000000", "Triangles of the meshes that the scene names."},
     [KILN_LIMIT_output] = {"64 GiB", "Bytes that are written."},
+    [KILN_LIMIT_gas_cells] = {"33554432", "Cells of all domains of gas."},
+    [KILN_LIMIT_gas_steps] = {"12 G", "Cells of gas times its steps up to the last frame."},
 };
 
 enum unit { COUNT, BYTES, TIME };
@@ -189,6 +191,11 @@ static const struct size {
     {"sources", KILN_MAX_SOURCE_CELLS,
      .help = "Triangles, vertices and pixels that particles are born on"},
     {"baked", KILN_MAX_BAKED, .help = "Baked winds, of up to 12 forces each"},
+    {"gas", KILN_MAX_GAS, .help = "Domains of gas"},
+    {"gas_cells", KILN_MAX_GAS_CELLS,
+     .help = "Cells of all domains of gas, of which an edge has at most 1024"},
+    {"gas_sources", KILN_MAX_GAS_SOURCES, .help = "Sources of a domain of gas"},
+    {"substeps", KILN_MAX_SUBSTEPS, .help = "Steps of gas in a step of the scene"},
     {"steps", KILN_MAX_STEPS, .help = "Steps of a run, warm-up included"},
 };
 
@@ -234,9 +241,9 @@ bool kiln_write_limits(FILE *out)
           "goes over a\n"
           "limit ends with exit code 8 and leaves no half-written file; --resume may go on. "
           "render, bake,\n"
-          "plan and check have all limits. encode and join have memory, time, cpu and output. "
-          "Tests have a\n"
-          "time limit of their own.\n"
+          "export, plan and check have all limits. encode and join have memory, time, cpu and "
+          "output. Tests\n"
+          "have a time limit of their own.\n"
           "\n",
           out);
     fputs("KEY           service\n", out);

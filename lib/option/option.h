@@ -154,6 +154,7 @@ struct kiln_option {
     size_t name_offset; /* of that text in the item */
     /* The key is written in files and never printed: what it says is printed by other keys. */
     bool is_unprinted;
+    bool is_hidden_if_empty; /* of a map: it is not printed if it has no entries */
     bool is_counted; /* of a map: its entries draw numbers of their own, as those of a list do */
     bool is_of_clip; /* of a number of seconds: it may be written as "50 %" of the clip */
     const char *instead_of; /* another key of the table, which cannot be given as well; or NULL */
@@ -175,6 +176,12 @@ static inline uint32_t kiln_option_count(const struct kiln_option *option, const
  * `wind: {grid: {...}}`; otherwise NULL. */
 const struct kiln_node *kiln_option_variant_inside(const struct kiln_option_kind *kinds,
                                                    const char *name, const struct kiln_node *node);
+
+/* Returns the kind of a name that a node chooses by having a key that is the kind's variant and one
+ * of its members, as in `wind: {gas: fire, pull: 3}`; otherwise NULL. */
+const struct kiln_option_kind *kiln_option_variant_by_member(const struct kiln_option_kind *kinds,
+                                                             const char *name,
+                                                             const struct kiln_node *node);
 
 /* Returns the row with this name, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);

@@ -17,10 +17,13 @@ void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *
                         const void *base)
 {
     for (const struct kiln_option *row = members; row->name; row++) {
+        const void *field = (const char *)base + row->offset;
         if (row->is_unprinted || !kiln_print_wants(printer, row, base))
             continue;
+        if (row->is_hidden_if_empty && kiln_option_count(row, field) == 0)
+            continue;
         kiln_print_key(printer, row->name);
-        row->type->print(printer, row, (const char *)base + row->offset);
+        row->type->print(printer, row, field);
     }
 }
 

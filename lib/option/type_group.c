@@ -17,6 +17,7 @@ static void print_group(struct kiln_printer *printer, const struct kiln_option *
                         const void *field)
 {
     kiln_text_add(&printer->text, "\n");
+    printer->after_dash = false;
     printer->indent += 2;
     kiln_print_members(printer, option->members, field);
     printer->indent -= 2;

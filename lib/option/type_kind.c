@@ -2,7 +2,7 @@
  * whose one key names the kind and whose value fills the members of that kind. A kind may have a
  * shortcut, which is the member that a bare value fills: `gravity: [0, -9.81, 0]`. Of several kinds
  * of one name, `wind: {field: baked, cells: 32}` chooses one, and so does `wind: {baked: {cells:
- * 32}}`. */
+ * 32}}`. A variant that has a member of its own name is chosen by that: `wind: {gas: fire}`. */
 #include <string.h>
 
 #include "option/animated.h"
@@ -20,13 +20,31 @@ static size_t kind_names(const struct kiln_option_kind *kinds, const char *names
     return count;
 }
 
+/* Returns whether a variant has a member of its own name, which then chooses it. */
+static bool has_member_of_name(const struct kiln_option_kind *kind)
+{
+    return kind->variant && kiln_option_find(kind->members, kind->variant);
+}
+
+const struct kiln_option_kind *kiln_option_variant_by_member(const struct kiln_option_kind *kinds,
+                                                             const char *name,
+                                                             const struct kiln_node *node)
+{
+    for (; kinds->name && node->kind == KILN_NODE_MAP; kinds++) {
+        if (strcmp(kinds->name, name) == 0 && has_member_of_name(kinds) &&
+            kiln_node_entry(node, kinds->variant))
+            return kinds;
+    }
+    return NULL;
+}
+
 const struct kiln_node *kiln_option_variant_inside(const struct kiln_option_kind *kinds,
                                                    const char *name, const struct kiln_node *node)
 {
     if (node->kind != KILN_NODE_MAP || node->count != 1)
         return NULL;
     for (; kinds->name; kinds++) {
-        if (kinds->variant && strcmp(kinds->name, name) == 0 &&
+        if (kinds->variant && !has_member_of_name(kinds) && strcmp(kinds->name, name) == 0 &&
             strcmp(kinds->variant, node->first->key->text) == 0)
             return node->first;
     }
@@ -54,6 +72,10 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
 {
     const char *name = node->key->text;
     const struct kiln_node *field = inside ? inside->key : kiln_node_entry(node, "field");
+    const struct kiln_option_kind *by_member =
+        field ? NULL : kiln_option_variant_by_member(option->kinds, name, node);
+    if (by_member)
+        return by_member;
     const struct kiln_option_kind *first = NULL;
     const char *variants[32];
     size_t variant_count = 0;
@@ -221,6 +243,8 @@ static const struct kiln_option_kind *kind_of(const struct kiln_option *option, 
  * read. */
 static bool needs_field(const struct kiln_option *option, const struct kiln_option_kind *kind)
 {
+    if (has_member_of_name(kind))
+        return false;
     const struct kiln_option_kind *first = option->kinds;
     while (strcmp(first->name, kind->name) != 0)
         first++;
@@ -287,10 +311,10 @@ static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
             kiln_text_add(out, ", ");
         }
         /* A kind without `field` is its first variant. */
-        bool needed = kind->variant && strcmp(before, kind->name) == 0;
+        bool needed = kind->variant && strcmp(before, kind->name) == 0 && !has_member_of_name(kind);
         kiln_schema_members(kind->members, kind->variant, needed, out);
         kiln_text_add(out, kind->shortcut ? "]}}}" : "}}");
-        if (kind->variant)
+        if (kind->variant && !has_member_of_name(kind))
             schema_inside(kind, out);
         before = kind->name;
     }

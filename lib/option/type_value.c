@@ -1,4 +1,5 @@
 /* Implements the option types of animated numbers: value, vector, colour, range. */
+#include <math.h>
 #include <string.h>
 
 #include "option/animated.h"
@@ -82,12 +83,24 @@ const struct kiln_option_type kiln_type_value = {
 
 /* ---- vector and colour ---------------------------------------------------------------------- */
 
+/* Returns the components of a vector for which the file has the option's word. */
+static float word_of(const struct kiln_option *option)
+{
+    return option->min < 0 ? NAN : KILN_VALUE_BY_WORD;
+}
+
+static bool is_by_word(const struct kiln_option *option, const struct kiln_value *first)
+{
+    return option->special_word && first->count == 0 &&
+           (option->min < 0 ? isnan(first->constant) : first->constant == KILN_VALUE_BY_WORD);
+}
+
 static bool read_vector(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
     struct kiln_value values[3];
     if (option->special_word && kiln_node_is(node, option->special_word)) {
-        const struct kiln_value by_word = {.constant = KILN_VALUE_BY_WORD};
+        const struct kiln_value by_word = {.constant = word_of(option)};
         *(struct kiln_value3 *)field = (struct kiln_value3){by_word, by_word, by_word};
         return true;
     }
@@ -102,7 +115,7 @@ static void print_vector(struct kiln_printer *printer, const struct kiln_option 
 {
     const struct kiln_value *first = &((const struct kiln_value3 *)field)->x;
     kiln_text_add(&printer->text, " ");
-    if (option->special_word && first->count == 0 && first->constant == KILN_VALUE_BY_WORD)
+    if (is_by_word(option, first))
         kiln_text_add(&printer->text, "%s", option->special_word);
     else
         kiln_print_vector(printer, option, field);

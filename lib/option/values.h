@@ -8,7 +8,8 @@
 
 #include "shared/value.h"
 
-/* The constant of a value if the file has the option's word instead. */
+/* The constant of a value if the file has the option's word instead. A vector whose components may
+ * be negative has a NaN, which no file can have. */
 #define KILN_VALUE_BY_WORD (-1.0f)
 
 /* An integer if the file has the option's word instead. */

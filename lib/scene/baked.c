@@ -44,6 +44,30 @@ void kiln_system_force_path(const struct kiln_system *system, uint32_t i, char *
     }
 }
 
+void kiln_gas_force_path(const struct kiln_gas_domain *domain, uint32_t i, char *path, size_t size)
+{
+    snprintf(path, size, "gas.%s.forces.%u.%s", domain->name, i,
+             kiln_force_name(&domain->forces[i]));
+}
+
+const struct kiln_force *kiln_owner_force(const struct kiln_scene *scene, uint32_t owner,
+                                          uint32_t i)
+{
+    if (owner < scene->system_count)
+        return kiln_system_force(&scene->systems[owner], i);
+    const struct kiln_gas_domain *domain = &scene->gas[owner - scene->system_count];
+    return i < domain->force_count ? &domain->forces[i] : NULL;
+}
+
+void kiln_owner_force_path(const struct kiln_scene *scene, uint32_t owner, uint32_t i, char *path,
+                           size_t size)
+{
+    if (owner < scene->system_count)
+        kiln_system_force_path(&scene->systems[owner], i, path, size);
+    else
+        kiln_gas_force_path(&scene->gas[owner - scene->system_count], i, path, size);
+}
+
 uint64_t kiln_baked_samples(const struct kiln_force *baked, uint32_t size[3])
 {
     const double edges[3] = {(double)baked->box_size.x.constant, (double)baked->box_size.y.constant,

@@ -11,6 +11,20 @@ const struct kiln_force *kiln_system_force(const struct kiln_system *system, uin
 /* Writes the path of that force in a file: "systems.a.forces.2.wind.of.0.curl". */
 void kiln_system_force_path(const struct kiln_system *system, uint32_t i, char *path, size_t size);
 
+/* Return force number i of a system, or of a domain of gas: the domains have the numbers behind
+ * those of the systems. */
+const struct kiln_force *kiln_owner_force(const struct kiln_scene *scene, uint32_t owner,
+                                          uint32_t i);
+void kiln_owner_force_path(const struct kiln_scene *scene, uint32_t owner, uint32_t i, char *path,
+                           size_t size);
+static inline uint32_t kiln_force_owners(const struct kiln_scene *scene)
+{
+    return scene->system_count + scene->gas_count;
+}
+
+/* Writes the path of force number i of a domain of gas: "gas.fire.forces.2.curl". */
+void kiln_gas_force_path(const struct kiln_gas_domain *domain, uint32_t i, char *path, size_t size);
+
 /* Returns how many samples the grid of a baked wind has, and along each axis. Its cells are about
  * cubes. */
 uint64_t kiln_baked_samples(const struct kiln_force *baked, uint32_t size[3]);

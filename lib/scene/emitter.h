@@ -23,6 +23,7 @@ enum kiln_emitter_shape {
     KILN_EMITTER_MESH,
     KILN_EMITTER_IMAGE,
     KILN_EMITTER_PATH,
+    KILN_EMITTER_SYSTEM, /* of a source of gas: the particles of a system */
 };
 
 /* Names the part of a mesh that particles are born on. */

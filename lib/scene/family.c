@@ -142,9 +142,8 @@ uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, u
 
 /* ---- settling ------------------------------------------------------------------------------- */
 
-/* Finds the system that the option at a path names. */
-static bool find_system(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
-                        const char *name, uint32_t *system)
+bool kiln_family_find_system(struct kiln_reader *reader, const struct kiln_node *root,
+                             const char *path, const char *name, uint32_t *system)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
     const char *names[KILN_MAX_SYSTEMS];
@@ -166,7 +165,8 @@ static bool find_parent(struct kiln_reader *reader, const struct kiln_node *root
     struct kiln_parent *parent = &system->emit.parent;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.emit.parent.system", system->name);
-    return !parent->enabled || find_system(reader, root, path, parent->name, &parent->system);
+    return !parent->enabled ||
+           kiln_family_find_system(reader, root, path, parent->name, &parent->system);
 }
 
 static bool find_sources(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
@@ -179,7 +179,7 @@ static bool find_sources(struct kiln_reader *reader, const struct kiln_node *roo
             continue;
         char path[128];
         snprintf(path, sizeof path, "systems.%s.interact.%u.gravity.of", system->name, i);
-        ok = find_system(reader, root, path, gravity->of, &gravity->source);
+        ok = kiln_family_find_system(reader, root, path, gravity->of, &gravity->source);
         gravity->of_other = ok && gravity->source != index;
     }
     return ok;

@@ -34,6 +34,10 @@ uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_par
  * are dead; at most `steps`. */
 uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, uint32_t steps);
 
+/* Finds the system that the option at a path names; false with an error that names similar ones. */
+bool kiln_family_find_system(struct kiln_reader *reader, const struct kiln_node *root,
+                             const char *path, const char *name, uint32_t *system);
+
 /* Finds the parents by their names and computes the slots of their children. Refuses unknown names,
  * cycles, too many generations and events that cannot happen. root is the tree, for the places of
  * errors. */

@@ -9,6 +9,9 @@
 #include "shared/layout.h"
 
 enum kiln_force_kind {
+    /* the air of a domain of gas, at the points of a grid: kernels know it as FORCE_BAKED, and no
+     * force by this number */
+    KILN_FORCE_GAS = 29,
     KILN_FORCE_GRAVITY = FORCE_GRAVITY, /* the same acceleration everywhere */
     KILN_FORCE_DRAG = FORCE_DRAG,       /* drag towards rest: pull, quadratic */
     KILN_FORCE_WIND = FORCE_WIND,   /* air of one velocity, which particles are pulled towards */
@@ -70,13 +73,13 @@ struct kiln_force {
         struct kiln_value3 acceleration; /* gravity: m/s^2 */
         struct kiln_value3 air;          /* wind: velocity, m/s */
         struct kiln_value3 center;       /* attract: the point; vortex: a point of the axis; m */
-        struct kiln_value3 box_center;   /* baked: of the box, m: constant */
+        struct kiln_value3 box_center;   /* baked, gas: of the box, m: constant */
     };
     union {
         struct kiln_value3 second;
         struct kiln_value3 drift;    /* curl: velocity of the noise field, m/s */
         struct kiln_value3 axis;     /* vortex: its direction, of any length */
-        struct kiln_value3 box_size; /* baked: edges of the box, m: constant */
+        struct kiln_value3 box_size; /* baked, gas: edges of the box, m: constant */
     };
     union {
         /* curl: velocity of the air, m/s; field: a factor; attract: acceleration at 1 m, m/s^2,
@@ -100,9 +103,24 @@ struct kiln_force {
     enum kiln_wind_mode mode; /* how moving air acts */
     struct kiln_force_region region;
     const char *file;            /* field: an absolute path (asset/geometry/grid_in.h) */
-    uint32_t cells;              /* baked: along the longest edge of the box */
+    uint32_t cells;              /* baked, gas: along the longest edge of the box */
     uint32_t every;              /* baked: steps from one writing to the next */
     struct kiln_baked_forces of; /* baked */
+    /* gas: the name of a domain; its number, box_center, box_size, attach and every follow */
+    const char *gas;
+    uint32_t domain;
 };
+
+/* Returns whether what a force does is written to the points of a grid in a box. */
+static inline bool kiln_force_is_baked(const struct kiln_force *force)
+{
+    return force->kind == KILN_FORCE_BAKED || force->kind == KILN_FORCE_GAS;
+}
+
+/* Returns the number by which kernels know the kind of a force: FORCE_BAKED for gas, too. */
+static inline uint kiln_force_number(const struct kiln_force *force)
+{
+    return kiln_force_is_baked(force) ? FORCE_BAKED : (uint)force->kind;
+}
 
 #endif

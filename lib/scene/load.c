@@ -67,6 +67,20 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
     return true;
 }
 
+/* Adds the hashes of the files of air that move gas. */
+static bool add_gas_hashes(const struct kiln_scene *scene, struct kiln_text *text,
+                           struct kiln_error *error)
+{
+    bool read = true;
+    for (uint32_t i = 0; i < scene->gas_count; i++) {
+        const struct kiln_gas_domain *domain = &scene->gas[i];
+        for (uint32_t k = 0; read && k < domain->force_count; k++)
+            if (domain->forces[k].kind == KILN_FORCE_FIELD)
+                read = kiln_asset_add_hash(scene, domain->forces[k].file, text, error);
+    }
+    return read;
+}
+
 /* Hashes the printed scene and the contents of its textures, meshes and grids, so that a changed
  * file makes another scene. */
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
@@ -91,7 +105,8 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
         if (scene->nodes[i].file)
             kiln_text_add(&text, "%s\n", kiln_rig_hash(scene->nodes[i].rig));
     }
-    read = read && (!ok || (add_backdrop_hashes(scene, &text, error) &&
+    read = read && (!ok || (add_gas_hashes(scene, &text, error) &&
+                            add_backdrop_hashes(scene, &text, error) &&
                             kiln_sources_add_hashes(scene, false, &text, error)));
     ok = ok && !text.failed;
     if (ok)

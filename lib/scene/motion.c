@@ -4,10 +4,11 @@
  * however they look.
  *
  * The text that is hashed consists of the part's options, printed as a scene, KILN_STATE_VERSION,
- * the capacity of each system, and the hashes of wind files, of meshes and terrain that particles
- * hit, and of files whose nodes matter to the part. The hash of a mesh is that of its file, so it
- * is followed by the version of the readers of meshes. tests/unit/test_motion.c changes every
- * option, and checks that the hash changes where the particles' state does. */
+ * the capacity of each system, what the cells of each domain of gas carry, and the hashes of wind
+ * files, of meshes and terrain that particles hit, and of files whose nodes matter to the part. The
+ * hash of a mesh is that of its file, so it is followed by the version of the readers of meshes.
+ * tests/unit/test_motion.c changes every option, and checks that the hash changes where the state
+ * does. */
 #include "scene/motion.h"
 
 #include "asset/geometry/rig.h"
@@ -33,10 +34,9 @@ static void add_node_files(struct kiln_text *text, const struct kiln_scene *scen
 static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
                       struct kiln_error *error)
 {
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
+    for (uint32_t i = 0; i < kiln_force_owners(scene); i++) {
         const struct kiln_force *force;
-        for (uint32_t k = 0; (force = kiln_system_force(system, k)) != NULL; k++) {
+        for (uint32_t k = 0; (force = kiln_owner_force(scene, i, k)) != NULL; k++) {
             if (force->kind == KILN_FORCE_FIELD &&
                 !kiln_asset_add_hash(scene, force->file, text, error))
                 return false;
@@ -63,6 +63,8 @@ bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part p
     kiln_text_add(&text, "version %d\n", KILN_STATE_VERSION);
     for (uint32_t i = 0; i < scene->system_count; i++)
         kiln_text_add(&text, "slots %u\n", scene->systems[i].capacity);
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        kiln_text_add(&text, "groups %u\n", kiln_gas_groups(&scene->gas[i].shape));
     add_node_files(&text, scene, part);
     const bool files_ok = !ok || add_files(&text, scene, error);
     ok = ok && !text.failed;

@@ -212,6 +212,27 @@ static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root
     return ok;
 }
 
+static bool find_gas(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    struct kiln_scene *scene = kiln_reader_scene(reader);
+    char path[128];
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < scene->gas_count; i++) {
+        struct kiln_gas_domain *domain = &scene->gas[i];
+        snprintf(path, sizeof path, "gas.%s.attach", domain->name);
+        ok = find_node(reader, root, path, &domain->attach);
+        for (uint32_t k = 0; ok && k < domain->source_count; k++) {
+            snprintf(path, sizeof path, "gas.%s.sources.%u.attach", domain->name, k);
+            ok = find_node(reader, root, path, &domain->sources[k].emit.attach);
+        }
+        for (uint32_t k = 0; ok && k < domain->force_count; k++) {
+            kiln_gas_force_path(domain, k, path, sizeof path);
+            ok = find_force(reader, root, path, &domain->forces[k]);
+        }
+    }
+    return ok;
+}
+
 static bool find_systems(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -284,5 +305,5 @@ bool kiln_nodes_settle(struct kiln_reader *reader, const struct kiln_node *root)
     for (uint32_t i = 0; ok && i < scene->node_count; i++)
         ok = check_ring(reader, root, i) && settle_path(reader, root, &scene->nodes[i]);
     return ok && kiln_node_rigs_settle(reader, root) && settle_camera(reader, root) &&
-           find_systems(reader, root);
+           find_systems(reader, root) && find_gas(reader, root);
 }

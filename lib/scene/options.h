@@ -13,6 +13,7 @@ extern const struct kiln_option kiln_options_look[];
 extern const struct kiln_option kiln_options_backdrop[];
 extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option kiln_options_node[];
+extern const struct kiln_option kiln_options_gas[];
 extern const struct kiln_option_kind kiln_force_kinds[];
 extern const struct kiln_option_kind kiln_object_kinds[];
 extern const struct kiln_option_kind kiln_interaction_kinds[];
@@ -25,6 +26,7 @@ typedef struct kiln_look kiln_options_look_fills;
 typedef struct kiln_backdrop kiln_options_backdrop_fills;
 typedef struct kiln_post kiln_options_post_fills;
 typedef struct kiln_scene_node kiln_options_node_fills;
+typedef struct kiln_gas_domain kiln_options_gas_fills;
 typedef struct kiln_force kiln_force_kinds_fills;
 typedef struct kiln_object kiln_object_kinds_fills;
 typedef struct kiln_interaction kiln_interaction_kinds_fills;
@@ -40,7 +42,9 @@ extern const struct kiln_option_type kiln_type_gltf;         /* the path of a fi
 extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
 extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
 extern const struct kiln_option_type kiln_type_part;         /* a name, a number, or none */
-extern const struct kiln_option_type kiln_type_name;         /* a system's name */
+extern const struct kiln_option_type kiln_type_name;         /* another system's name */
+extern const struct kiln_option_type kiln_type_system;       /* a system's name */
+extern const struct kiln_option_type kiln_type_domain;       /* a domain's name */
 extern const struct kiln_option_type kiln_type_object;       /* an object's name or number */
 extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a list */
 extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] */
@@ -49,6 +53,7 @@ extern const struct kiln_option_type kiln_type_place;        /* a vector, or {pa
 extern const struct kiln_option_type kiln_type_points;       /* [[0, 0, 0], [1, 0, 0]] */
 extern const struct kiln_option_type kiln_type_demitter;     /* {min, max, attach} */
 extern const struct kiln_option_type kiln_type_of;           /* forces of a baked wind */
+extern const struct kiln_option_type kiln_type_forces;       /* forces of a domain of gas */
 extern const struct kiln_option_type kiln_type_duration;     /* 5 s, or none */
 
 /* The C types of their fields (option/option.h). */
@@ -63,12 +68,15 @@ typedef const char *kiln_fills_grid;
 typedef const char *kiln_fills_clip;
 typedef const char *kiln_fills_part;
 typedef const char *kiln_fills_name;
+typedef const char *kiln_fills_system;
+typedef const char *kiln_fills_domain;
 typedef const char *kiln_fills_object;
 typedef struct kiln_attach kiln_fills_attach;
 typedef struct kiln_node_position kiln_fills_place;
 typedef struct kiln_path_points kiln_fills_points;
 typedef struct kiln_demitter kiln_fills_demitter;
 typedef struct kiln_baked_forces kiln_fills_of;
+typedef struct kiln_force kiln_fills_forces[];
 typedef struct kiln_burst kiln_fills_bursts[];
 typedef uint32_t kiln_fills_counts[2];
 typedef struct kiln_scene kiln_fills_duration; /* its frames */

@@ -250,6 +250,18 @@ TABLE(baked) = {
     END,
 };
 
+TABLE(gas) = {
+    {ROW(MOTION, "gas", domain, gas, NULL, "Name of the domain of gas.")},
+    VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, TIME(100), "2 1/s",
+          "How fast particles take up the velocity of the gas: `pull` times the difference of "
+          "the velocities is their acceleration."),
+    INTEGER(MOTION, "cells", cells, 1, 256, "64",
+            "Cells of the grid from which particles read the velocities, along the longest edge of "
+            "the domain. Between its points, velocities are interpolated."),
+    REGION,
+    END,
+};
+
 PUBLIC_KINDS(kiln_force_kinds) = {
     {.name = "gravity",
      .value = KILN_FORCE_GRAVITY,
@@ -308,6 +320,13 @@ PUBLIC_KINDS(kiln_force_kinds) = {
      MEMBERS(baked),
      .help = "The sum of other forces, written to a grid that particles read (Heinz 2019, 2.2.5). "
              "It costs less than the forces where there are more particles than points."},
+    {.name = "wind",
+     .variant = "gas",
+     .value = KILN_FORCE_GAS,
+     MEMBERS(gas),
+     .help =
+         "The air of a domain of gas, which carries sparks, ash and leaves. Outside of its box, "
+         "it does nothing."},
     {.name = NULL},
 };
 

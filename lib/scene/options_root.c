@@ -122,6 +122,9 @@ PUBLIC_TABLE(kiln_options_root) = {
              "Sky, sun, floor, objects and lights around the particles."),
     MAP(MOTION, "systems", systems, kiln_options_system, system_count, "{}",
         "The particle systems by their names."),
+    {MEMBERS_OF_MAP(OF_GAS, "gas", gas, kiln_options_gas, gas_count, "{}",
+                    "Domains in which smoke and fire flow, by their names."),
+     .is_hidden_if_empty = true},
     GROUP_AT(LOOK, "post", post, kiln_options_post,
              "Post-processing: composition, bloom, exposure and tone mapping turn light into the "
              "picture."),

@@ -48,11 +48,14 @@ static void enter_kind(struct walk *walk, const char *name)
     const struct kiln_node *inside =
         node ? kiln_option_variant_inside(walk->kinds, name, node) : NULL;
     const struct kiln_node *field = node ? kiln_node_entry(node, "field") : NULL;
+    const struct kiln_option_kind *by_member =
+        node && !field ? kiln_option_variant_by_member(walk->kinds, name, node) : NULL;
     field = inside ? inside->key : field;
     node = inside ? inside : node;
     while (kind->name && (strcmp(kind->name, name) != 0 ||
                           (kind->variant && field && !kiln_node_is(field, kind->variant))))
         kind++;
+    kind = by_member ? by_member : kind;
     const bool is_short =
         node && kind->shortcut && (node->kind != KILN_NODE_MAP || kiln_node_is_animated(node));
     *walk = (struct walk){

@@ -70,6 +70,8 @@ static bool any_collides(const struct kiln_scene *scene)
     bool any = false;
     for (uint32_t i = 0; i < scene->system_count; i++)
         any = any || scene->systems[i].collide.enabled;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        any = any || (scene->gas[i].enabled && scene->gas[i].collide);
     return any;
 }
 
@@ -214,6 +216,18 @@ static bool moves_particles(const struct kiln_scene *scene, uint32_t node,
     return moves;
 }
 
+static bool moves_gas(const struct kiln_scene *scene, uint32_t node,
+                      const struct kiln_gas_domain *domain)
+{
+    bool moves = is_carried(scene, node, &domain->attach);
+    for (uint32_t i = 0; i < domain->source_count; i++)
+        moves = moves || is_carried(scene, node, &domain->sources[i].emit.attach);
+    for (uint32_t i = 0; i < domain->force_count; i++)
+        moves = moves || is_carried(scene, node, &domain->forces[i].attach) ||
+                is_carried(scene, node, &domain->forces[i].region.attach);
+    return moves;
+}
+
 static unsigned parts_of_node(const struct kiln_scene *scene, uint32_t node)
 {
     unsigned parts = NEITHER;
@@ -221,6 +235,8 @@ static unsigned parts_of_node(const struct kiln_scene *scene, uint32_t node)
         parts |= KILN_PART_VIEW;
     for (uint32_t i = 0; i < scene->system_count; i++)
         parts |= moves_particles(scene, node, &scene->systems[i]) ? BOTH : 0;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        parts |= moves_gas(scene, node, &scene->gas[i]) ? BOTH : 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
         parts |= is_carried(scene, node, &scene->backdrop.objects[i].attach) ? BOTH : 0;
     return parts;
@@ -274,4 +290,17 @@ unsigned kiln_row_of_nodes(const void *scene, const void *base)
     for (uint32_t i = 0; i < in->node_count; i++)
         parts |= parts_of_node(in, i);
     return parts;
+}
+
+unsigned kiln_row_of_gas(const void *scene, const void *base)
+{
+    (void)base;
+    return ((const struct kiln_scene *)scene)->gas_count > 0 ? BOTH : 0;
+}
+
+unsigned kiln_row_of_detail(const void *scene, const void *base)
+{
+    (void)scene;
+    (void)base;
+    return NEITHER;
 }

@@ -74,6 +74,12 @@ unsigned kiln_row_if_node_is_joint(const void *scene, const void *inside);
 /* Returns the bits of all nodes together; 0 if there are none. */
 unsigned kiln_row_of_nodes(const void *scene, const void *base);
 
+/* Returns the bits of all parts if there are domains of gas, and otherwise 0. */
+unsigned kiln_row_of_gas(const void *scene, const void *base);
+
+/* Returns the bit of the hash: motion.c adds what the detail of gas adds to its state. */
+unsigned kiln_row_of_detail(const void *scene, const void *base);
+
 /* Returns the bits of all parts if a system's seed is not its place, and otherwise 0. */
 unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 
@@ -105,5 +111,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_NODE_IS_JOINT         kiln_row_if_node_is_joint
 #define OF_NODE                  kiln_row_of_node
 #define OF_NODES                 kiln_row_of_nodes
+#define OF_GAS                   kiln_row_of_gas
+#define OF_DETAIL                kiln_row_of_detail
 
 #endif

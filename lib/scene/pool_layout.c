@@ -20,6 +20,9 @@ struct kiln_pool_layout kiln_scene_pool_layout(const struct kiln_scene *scene)
         layout.spins[i] = kiln_scene_system_spins(scene, i);
         layout.travels[i] = kiln_family_travels(scene, i);
     }
+    layout.gas_count = scene->gas_count;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        layout.gas[i] = scene->gas[i].shape;
     const uint32_t slots = kiln_scene_paint_slots(scene);
     for (uint32_t i = 0; i < scene->backdrop.object_count && slots > 0; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];

@@ -65,15 +65,16 @@ static bool count_wind(struct kiln_reader *reader, const struct kiln_node *root,
     return true;
 }
 
-static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root,
-                        const struct kiln_system *system, struct winds *winds, struct count *count)
+static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root, uint32_t owner,
+                        struct winds *winds, struct count *count)
 {
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
     const struct kiln_force *force;
-    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++) {
+    for (uint32_t i = 0; (force = kiln_owner_force(scene, owner, i)) != NULL; i++) {
         char path[128], key[160];
         if (force->kind != KILN_FORCE_FIELD || is_known(winds, force->file))
             continue;
-        kiln_system_force_path(system, i, path, sizeof path);
+        kiln_owner_force_path(scene, owner, i, path, sizeof path);
         snprintf(key, sizeof key, "%s.file", path);
         if (winds->count == KILN_MAX_WINDS)
             return kiln_reader_error_at(reader, root, key,
@@ -94,7 +95,7 @@ static bool count_baked(struct kiln_reader *reader, const struct kiln_node *root
         const struct kiln_force *force = &system->forces[i];
         uint32_t size[3];
         char path[128];
-        if (force->kind != KILN_FORCE_BAKED)
+        if (!kiln_force_is_baked(force))
             continue;
         snprintf(path, sizeof path, "systems.%s.forces.%u.wind.cells", system->name, i);
         if (++*baked > KILN_MAX_BAKED)
@@ -186,8 +187,12 @@ bool kiln_samples_settle(struct kiln_reader *reader, const struct kiln_node *roo
     struct winds winds = {.count = 0};
     uint32_t baked = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (!count_winds(reader, root, &scene->systems[i], &winds, &count) ||
+        if (!count_winds(reader, root, i, &winds, &count) ||
             !count_baked(reader, root, &scene->systems[i], &baked, &count))
+            return false;
+    }
+    for (uint32_t i = scene->system_count; i < kiln_force_owners(scene); i++) {
+        if (!count_winds(reader, root, i, &winds, &count))
             return false;
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {

@@ -39,6 +39,9 @@ static struct value_clocks scene_clocks(const struct kiln_scene *scene, float ti
 
 struct value_clocks kiln_scene_clocks(const struct kiln_scene *scene, uint32_t system, float time_s)
 {
+    if (system >= KILN_MAX_SYSTEMS)
+        return value_clocks_at(time_s, random_gas_key(scene->seed, system - KILN_MAX_SYSTEMS),
+                               random_noise_key(scene->seed));
     const struct kiln_derived_params derived = kiln_scene_derived(scene, system);
     return value_clocks_at(time_s, derived.random_key, derived.scene_key);
 }

@@ -18,6 +18,7 @@
 #include "scene/collide.h"
 #include "scene/emitter.h"
 #include "scene/force.h"
+#include "scene/gas.h"
 #include "scene/interaction.h"
 #include "scene/light.h"
 #include "scene/look.h"
@@ -248,6 +249,8 @@ struct kiln_scene {
     struct kiln_backdrop backdrop;
     struct kiln_system systems[KILN_MAX_SYSTEMS];
     uint32_t system_count;
+    struct kiln_gas_domain gas[KILN_MAX_GAS];
+    uint32_t gas_count;
     struct kiln_post post;
 
     uint64_t samples;      /* follows: samples of grids (scene/samples.h) */
@@ -287,7 +290,8 @@ float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
 
 /* Compute values on the host at a clip time, for values that are the same for all particles. Values
- * of a system may have the system's noise, others that of the scene. */
+ * of a system may have the system's noise, others that of the scene. `system` may be
+ * KILN_SYSTEM_OF_GAS(domain), for a value of a domain of gas. */
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,
                        float time_s);
 struct value_clocks kiln_scene_clocks(const struct kiln_scene *scene, uint32_t system,

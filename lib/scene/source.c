@@ -18,12 +18,14 @@
 #include "scene/source_mesh.h"
 #include "scene/source_path.h"
 
-/* A system whose source is made. */
+/* A system, or a source of gas, whose source is made. */
 struct making {
     struct kiln_reader *reader;
     const struct kiln_node *root;
     struct kiln_scene *scene;
-    struct kiln_system *system;
+    struct kiln_emitter *emit;
+    const struct kiln_system *system; /* NULL: of a source of gas */
+    bool wants_color;                 /* look.color is `source` */
     struct kiln_source *source;
     char path[128]; /* of the kind of `from`, for errors */
 };
@@ -38,7 +40,7 @@ static bool refuse(const struct making *m, const char *key, const char *text)
 /* Returns the key that names the mesh. */
 static const char *mesh_key(const struct making *m)
 {
-    return m->system->emit.source.object ? "object" : "file";
+    return m->emit->source.object ? "object" : "file";
 }
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
@@ -67,7 +69,7 @@ static const char *kind_of(const struct kiln_object *object)
 static bool refuse_unknown_object(const struct making *m)
 {
     const struct kiln_backdrop *backdrop = &m->scene->backdrop;
-    const char *object = m->system->emit.source.object;
+    const char *object = m->emit->source.object;
     struct label labels[KILN_MAX_OBJECTS];
     const char *names[KILN_MAX_OBJECTS];
     uint32_t count = 0;
@@ -90,7 +92,7 @@ static bool check_object(const struct making *m, uint32_t number)
 {
     const struct kiln_backdrop *backdrop = &m->scene->backdrop;
     const struct kiln_object *object = &backdrop->objects[number];
-    const struct kiln_emit_source *from = &m->system->emit.source;
+    const struct kiln_emit_source *from = &m->emit->source;
     const struct kiln_value3 *angles = &from->rotation;
     struct label label;
     char text[256];
@@ -105,12 +107,14 @@ static bool check_object(const struct making *m, uint32_t number)
         return refuse(m, "scale", "must be 1 with `object`, which has its own scale");
     if (object->animation.enabled && from->on != KILN_ON_SURFACE)
         return refuse(m, "on", "must be surface for a mesh with an animation");
-    if (m->system->emit.parent.enabled)
+    if (m->emit->parent.enabled)
         return refuse(m, "object",
                       "must be none for a system with a parent, around whose "
                       "particles its own are born");
-    if (m->system->emit.attach.name)
-        return refuse(m, "object", "must be none where the emitter is attached to a node");
+    if (m->emit->attach.name)
+        return refuse(m, "object",
+                      !m->system ? "must be none where the source is attached to a node"
+                                 : "must be none where the emitter is attached to a node");
     return true;
 }
 
@@ -118,7 +122,7 @@ static bool check_object(const struct making *m, uint32_t number)
 static bool find_object(struct making *m)
 {
     const struct kiln_backdrop *backdrop = &m->scene->backdrop;
-    struct kiln_emit_source *from = &m->system->emit.source;
+    struct kiln_emit_source *from = &m->emit->source;
     struct label label;
     uint32_t found = backdrop->object_count;
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
@@ -139,7 +143,7 @@ static bool find_object(struct making *m)
 static bool fill_volume(struct making *m, const struct kiln_mesh *mesh, const float rotation[3][3],
                         float scale, const char *file)
 {
-    struct kiln_emit_source *from = &m->system->emit.source;
+    struct kiln_emit_source *from = &m->emit->source;
     struct kiln_error error = {0};
     char path[192];
     snprintf(path, sizeof path, "%s.%s", m->path, mesh_key(m));
@@ -152,7 +156,9 @@ static bool fill_volume(struct making *m, const struct kiln_mesh *mesh, const fl
                     : refuse(m, mesh_key(m),
                              "too many triangles of the mesh lie above one another for a volume");
     return m->source->cells > 0 ||
-           refuse(m, mesh_key(m), "the mesh has no volume, so no particle can be born in it");
+           refuse(m, mesh_key(m),
+                  !m->system ? "the mesh has no volume, so it is no source of gas"
+                             : "the mesh has no volume, so no particle can be born in it");
 }
 
 /* Fills the colours of a mesh. Where it has none, it has the colour that its object is drawn in; a
@@ -161,7 +167,7 @@ static bool color_mesh(struct making *m, const struct kiln_mesh *mesh,
                        const struct kiln_mesh *looks, const char *file)
 {
     const struct kiln_backdrop *backdrop = &m->scene->backdrop;
-    const struct kiln_emit_source *from = &m->system->emit.source;
+    const struct kiln_emit_source *from = &m->emit->source;
     float plain[3] = {1.0f, 1.0f, 1.0f};
     struct kiln_error error = {0};
     char path[192];
@@ -194,7 +200,7 @@ static bool color_mesh(struct making *m, const struct kiln_mesh *mesh,
 static bool fill_mesh(struct making *m, const struct kiln_mesh *mesh, const struct kiln_mesh *looks,
                       const char *file)
 {
-    const struct kiln_emit_source *from = &m->system->emit.source;
+    const struct kiln_emit_source *from = &m->emit->source;
     const struct kiln_value3 *angles = &from->rotation;
     const float3 none = {0.0f, 0.0f, 0.0f};
     const float3 turned = {angles->x.constant, angles->y.constant, angles->z.constant};
@@ -206,15 +212,17 @@ static bool fill_mesh(struct making *m, const struct kiln_mesh *mesh, const stru
         return fill_volume(m, mesh, (const float(*)[3])rotation, scale, file);
     if (!kiln_source_fill_mesh(m->scene->arena, mesh, from->on, (const float(*)[3])rotation, scale,
                                mesh != looks, m->source, &has_area))
-        return has_area ? kiln_reader_out_of_memory(m->reader)
-                        : refuse(m, mesh_key(m),
-                                 "the mesh has no area, so no particle can be born on it");
-    return !kiln_look_color_is_source(&m->system->look) || color_mesh(m, mesh, looks, file);
+        return has_area
+                   ? kiln_reader_out_of_memory(m->reader)
+                   : refuse(m, mesh_key(m),
+                            !m->system ? "the mesh has no area, so it is no source of gas"
+                                       : "the mesh has no area, so no particle can be born on it");
+    return !m->wants_color || color_mesh(m, mesh, looks, file);
 }
 
 static bool settle_mesh(struct making *m)
 {
-    struct kiln_emit_source *from = &m->system->emit.source;
+    struct kiln_emit_source *from = &m->emit->source;
     if (from->file && from->object)
         return refuse(m, "", "must have one of `file` and `object`, found both");
     if (!from->file && !from->object)
@@ -246,7 +254,8 @@ static bool settle_mesh(struct making *m)
 /* Returns whether the scene has a key of the source, so that its value is not the default one. */
 static bool is_written(const struct making *m, const char *key)
 {
-    const char *const way[] = {"systems", m->system->name, "emit", "from", "image", key};
+    const char *const way[] = {"systems", m->system ? m->system->name : "", "emit", "from", "image",
+                               key};
     const struct kiln_node *node = m->root;
     for (size_t i = 0; node && i < sizeof way / sizeof *way; i++)
         node = kiln_node_entry(node, way[i]);
@@ -265,7 +274,7 @@ static bool refuse_dark_image(const struct making *m, const struct kiln_pixel_co
                             "pixels count by their brightness, and all of it is black");
     snprintf(text, sizeof text,
              "no pixel of the image counts more than the threshold, %g: %s, which is at most %.6g",
-             m->system->emit.source.threshold,
+             m->emit->source.threshold,
              counts->by_alpha ? "pixels count by their alpha"
                               : "the image is opaque, so that pixels count by their brightness",
              counts->most);
@@ -274,7 +283,7 @@ static bool refuse_dark_image(const struct making *m, const struct kiln_pixel_co
 
 static bool settle_image(struct making *m)
 {
-    struct kiln_emit_source *from = &m->system->emit.source;
+    struct kiln_emit_source *from = &m->emit->source;
     struct kiln_error error = {0};
     char path[192], text[160];
     if (!from->file)
@@ -294,9 +303,8 @@ static bool settle_image(struct making *m)
     if (count > KILN_MAX_SOURCE_CELLS)
         refuse(m, "file", text);
     from->edge = (float)(from->width / image->width);
-    if (ok &&
-        !kiln_source_fill_image(m->scene->arena, image, from->threshold, from->width,
-                                kiln_look_color_is_source(&m->system->look), count, m->source))
+    if (ok && !kiln_source_fill_image(m->scene->arena, image, from->threshold, from->width,
+                                      m->wants_color, count, m->source))
         ok = kiln_reader_out_of_memory(m->reader);
     kiln_asset_image_destroy(&image);
     return ok;
@@ -306,7 +314,7 @@ static bool settle_image(struct making *m)
 
 static bool settle_path(struct making *m)
 {
-    struct kiln_path *curve = &m->system->emit.source.path;
+    struct kiln_path *curve = &m->emit->source.path;
     const uint32_t count = curve->points.count;
     if (curve->closed && count < 3)
         return refuse(m, "points", "a closed path has 3 points at least");
@@ -335,31 +343,29 @@ static const char *name_of(enum kiln_emitter_shape shape)
     }
 }
 
-static bool settle_system(struct making *m)
+/* Checks a look whose colours are those of the source. */
+static bool check_color(const struct making *m, const char *name)
 {
-    struct kiln_emitter *emit = &m->system->emit;
-    const char *name = name_of(emit->shape);
+    const struct kiln_emitter *emit = m->emit;
+    const struct kiln_system *system = m->system;
     char path[128];
-    snprintf(path, sizeof path, "systems.%s.emit.from.line.ordered", m->system->name);
-    if (emit->shape == KILN_EMITTER_LINE && emit->ordered && emit->nozzles > 0)
+    snprintf(path, sizeof path, "systems.%s.look.color", system->name);
+    if (!name || emit->shape == KILN_EMITTER_PATH)
         return kiln_reader_error_at(m->reader, m->root, path,
-                                    "must be false where the line has `nozzles`, at which "
-                                    "particles are born in turn");
-    snprintf(path, sizeof path, "systems.%s.look.color", m->system->name);
-    if (kiln_look_color_is_source(&m->system->look)) {
-        if (!name || emit->shape == KILN_EMITTER_PATH)
-            return kiln_reader_error_at(m->reader, m->root, path,
-                                        "source needs an emit.from that is a mesh or an image");
-        if (emit->shape == KILN_EMITTER_MESH && emit->source.on == KILN_ON_VOLUME)
-            return kiln_reader_error_at(m->reader, m->root, path,
-                                        "cannot be source in a volume, which has no colours");
-        if (m->system->paint.enabled)
-            return kiln_reader_error_at(m->reader, m->root, path,
-                                        "cannot be source, since the system paints with it");
-    }
-    if (!name)
-        return true;
-    snprintf(m->path, sizeof m->path, "systems.%s.emit.from.%s", m->system->name, name);
+                                    "source needs an emit.from that is a mesh or an image");
+    if (emit->shape == KILN_EMITTER_MESH && emit->source.on == KILN_ON_VOLUME)
+        return kiln_reader_error_at(m->reader, m->root, path,
+                                    "cannot be source in a volume, which has no colours");
+    return !system->paint.enabled ||
+           kiln_reader_error_at(m->reader, m->root, path,
+                                "cannot be source, since the system paints with it");
+}
+
+/* Makes the source of an emitter whose shape has this name, at a path. */
+static bool settle(struct making *m, const char *name, const char *path)
+{
+    struct kiln_emitter *emit = m->emit;
+    snprintf(m->path, sizeof m->path, "%s.from.%s", path, name);
     m->source = kiln_arena_alloc(m->scene->arena, 1, sizeof *m->source);
     if (!m->source)
         return kiln_reader_out_of_memory(m->reader);
@@ -369,37 +375,96 @@ static bool settle_system(struct making *m)
     return emit->shape == KILN_EMITTER_IMAGE ? settle_image(m) : settle_path(m);
 }
 
+/* Counts the cells of all sources made so far. */
+struct total {
+    uint64_t cells;
+    uint32_t texels;
+};
+
+static bool add(const struct making *m, struct total *total)
+{
+    total->cells += m->source->cells;
+    m->source->first_texel = total->texels;
+    total->texels += m->source->texel_count;
+    return total->cells <= KILN_MAX_SOURCE_CELLS ||
+           kiln_reader_error_at(m->reader, m->root, m->path,
+                                "triangles, vertices and pixels that particles are born on "
+                                "are %" PRIu64 " altogether; a scene has at most %d",
+                                total->cells, KILN_MAX_SOURCE_CELLS);
+}
+
+static bool settle_system(struct kiln_reader *reader, const struct kiln_node *root,
+                          struct kiln_system *system, struct total *total)
+{
+    struct making m = {.reader = reader,
+                       .root = root,
+                       .scene = kiln_reader_scene(reader),
+                       .emit = &system->emit,
+                       .system = system,
+                       .wants_color = kiln_look_color_is_source(&system->look)};
+    const char *name = name_of(m.emit->shape);
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.emit.from.line.ordered", system->name);
+    if (m.emit->shape == KILN_EMITTER_LINE && m.emit->ordered && m.emit->nozzles > 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must be false where the line has `nozzles`, at which "
+                                    "particles are born in turn");
+    if (m.wants_color && !check_color(&m, name))
+        return false;
+    snprintf(path, sizeof path, "systems.%s.emit", system->name);
+    return !name || (settle(&m, name, path) && add(&m, total));
+}
+
+static bool settle_gas(struct kiln_reader *reader, const struct kiln_node *root,
+                       struct kiln_gas_domain *domain, struct total *total)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < domain->source_count; i++) {
+        struct making m = {.reader = reader,
+                           .root = root,
+                           .scene = kiln_reader_scene(reader),
+                           .emit = &domain->sources[i].emit};
+        const char *name = name_of(m.emit->shape);
+        char path[128];
+        snprintf(path, sizeof path, "gas.%s.sources.%u", domain->name, i);
+        ok = !name || (settle(&m, name, path) && add(&m, total));
+    }
+    return ok;
+}
+
 bool kiln_sources_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
-    uint64_t cells = 0;
-    uint32_t texels = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        struct making m = {.reader = reader, .root = root, .scene = scene};
-        m.system = &scene->systems[i];
-        if (!m.system->enabled)
-            continue;
-        if (!settle_system(&m))
-            return false;
-        if (!m.source)
-            continue;
-        cells += m.source->cells;
-        m.source->first_texel = texels;
-        texels += m.source->texel_count;
-        if (cells > KILN_MAX_SOURCE_CELLS)
-            return kiln_reader_error_at(reader, root, m.path,
-                                        "triangles, vertices and pixels that particles are born on "
-                                        "are %" PRIu64 " altogether; a scene has at most %d",
-                                        cells, KILN_MAX_SOURCE_CELLS);
+    struct total total = {.cells = 0};
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < scene->system_count; i++)
+        ok = !scene->systems[i].enabled || settle_system(reader, root, &scene->systems[i], &total);
+    for (uint32_t i = 0; ok && i < scene->gas_count; i++)
+        ok = !scene->gas[i].enabled || settle_gas(reader, root, &scene->gas[i], &total);
+    return ok;
+}
+
+/* Returns emitter number i: those of the systems, then those of the sources of gas; NULL: there are
+ * fewer. */
+static const struct kiln_emitter *emitter_at(const struct kiln_scene *scene, uint32_t i)
+{
+    if (i < scene->system_count)
+        return &scene->systems[i].emit;
+    i -= scene->system_count;
+    for (uint32_t k = 0; k < scene->gas_count; k++) {
+        if (i < scene->gas[k].source_count)
+            return &scene->gas[k].sources[i].emit;
+        i -= scene->gas[k].source_count;
     }
-    return true;
+    return NULL;
 }
 
 bool kiln_sources_add_hashes(const struct kiln_scene *scene, bool motion, struct kiln_text *text,
                              struct kiln_error *error)
 {
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_emit_source *from = &scene->systems[i].emit.source;
+    const struct kiln_emitter *emit;
+    for (uint32_t i = 0; (emit = emitter_at(scene, i)) != NULL; i++) {
+        const struct kiln_emit_source *from = &emit->source;
         const struct kiln_source *source = from->made;
         char hex[65];
         if (!source)
@@ -418,9 +483,10 @@ bool kiln_sources_add_hashes(const struct kiln_scene *scene, bool motion, struct
 
 bool kiln_object_is_source(const struct kiln_scene *scene, const struct kiln_object *object)
 {
+    const struct kiln_emitter *emit;
     bool found = false;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_emit_source *from = &scene->systems[i].emit.source;
+    for (uint32_t i = 0; (emit = emitter_at(scene, i)) != NULL; i++) {
+        const struct kiln_emit_source *from = &emit->source;
         found = found || (from->of_object && object == &scene->backdrop.objects[from->number]);
     }
     return found;
@@ -436,6 +502,13 @@ struct kiln_sources_sizes kiln_sources_sizes(const struct kiln_scene *scene)
         sizes.words += source->word_count;
         sizes.texels += source->texel_count;
         sizes.making = source->making > sizes.making ? source->making : sizes.making;
+    }
+    for (uint32_t i = 0; i < scene->gas_count; i++) {
+        for (uint32_t k = 0; k < scene->gas[i].source_count; k++) {
+            const struct kiln_source *source = scene->gas[i].sources[k].emit.source.made;
+            sizes.gas_words += source ? source->word_count : 0;
+            sizes.making = source && source->making > sizes.making ? source->making : sizes.making;
+        }
     }
     return sizes;
 }

@@ -33,14 +33,15 @@ bool kiln_sources_settle(struct kiln_reader *reader, const struct kiln_node *roo
 bool kiln_sources_add_hashes(const struct kiln_scene *scene, bool motion, struct kiln_text *text,
                              struct kiln_error *error);
 
-/* Returns whether particles are born on an object of the backdrop. */
+/* Returns whether particles are born on an object of the backdrop, or gas comes from it. */
 bool kiln_object_is_source(const struct kiln_scene *scene, const struct kiln_object *object);
 
 /* The sizes of all sources of a scene. */
 struct kiln_sources_sizes {
-    uint64_t words;  /* of all sources */
-    uint64_t texels; /* of their colours */
-    uint64_t making; /* the most bytes that making one of them took */
+    uint64_t words;     /* of the sources of particles */
+    uint64_t texels;    /* of their colours */
+    uint64_t gas_words; /* of the sources of gas */
+    uint64_t making;    /* the most bytes that making one of them took */
 };
 struct kiln_sources_sizes kiln_sources_sizes(const struct kiln_scene *scene);
 

@@ -1,8 +1,8 @@
 /* This file reads and describes the types of options that name a part of the scene or of a file of
- * it: a system, an object, a clip, a node. */
+ * it: a system, a domain of gas, an object, a clip, a node. */
 #include "scene/options.h"
 
-/* ---- name: its system is found when all systems are read ------------------------------------- */
+/* ---- name: another system ------------------------------------------------------------------- */
 
 static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
@@ -27,6 +27,34 @@ const struct kiln_option_type kiln_type_name = {
     .read = read_name,
     .print = kiln_print_text,
     .describe = describe_name,
+    .schema = schema_name,
+};
+
+/* ---- system, domain: they are found when all of them are read -------------------------------- */
+
+static void describe_system(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the name of a system");
+}
+
+const struct kiln_option_type kiln_type_system = {
+    .read = read_name,
+    .print = kiln_print_text,
+    .describe = describe_system,
+    .schema = schema_name,
+};
+
+static void describe_domain(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "the name of a domain of gas");
+}
+
+const struct kiln_option_type kiln_type_domain = {
+    .read = read_name,
+    .print = kiln_print_text,
+    .describe = describe_domain,
     .schema = schema_name,
 };
 

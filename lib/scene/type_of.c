@@ -1,5 +1,6 @@
-/* This file reads, prints and describes the forces of a baked wind. They are forces as those of a
- * system, but what they do is the same for all particles: values may vary over time alone. */
+/* This file reads, prints and describes the forces of a baked wind, and those of a domain of gas.
+ * They are forces as those of a system, but what they do does not depend on particles: values may
+ * vary over time alone. */
 #include <string.h>
 
 #include "option/printer.h"
@@ -132,4 +133,44 @@ const struct kiln_option_type kiln_type_of = {
     .print = print_of,
     .describe = describe_of,
     .schema = schema_of,
+};
+
+/* ---- forces of a domain of gas: a list of the same items ------------------------------------- */
+
+static bool read_forces(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    struct kiln_option item = *kiln_baked_force, list = *option;
+    item.kinds = kinds_over_time(reader, item.kinds);
+    list.item = &item;
+    return item.kinds && kiln_type_list.read(reader, &list, node, field);
+}
+
+static void print_forces(struct kiln_printer *printer, const struct kiln_option *option,
+                         const void *field)
+{
+    struct kiln_option list = *option;
+    list.item = kiln_baked_force;
+    kiln_type_list.print(printer, &list, field);
+}
+
+static void describe_forces(const struct kiln_option *option, struct kiln_text *out)
+{
+    struct kiln_option list = *option;
+    list.item = kiln_baked_force;
+    kiln_type_list.describe(&list, out);
+}
+
+static void schema_forces(const struct kiln_option *option, struct kiln_text *out)
+{
+    struct kiln_option list = *option;
+    list.item = kiln_baked_force;
+    kiln_type_list.schema(&list, out);
+}
+
+const struct kiln_option_type kiln_type_forces = {
+    .read = read_forces,
+    .print = print_forces,
+    .describe = describe_forces,
+    .schema = schema_forces,
 };

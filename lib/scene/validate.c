@@ -10,9 +10,9 @@
 #include "asset/atlas/cells_in.h"
 #include "asset/geometry/chart.h"
 #include "scene/asset_path.h"
-#include "scene/baked.h"
 #include "scene/emit_way.h"
 #include "scene/family.h"
+#include "scene/gas_settle.h"
 #include "scene/impacts.h"
 #include "scene/instant.h"
 #include "scene/look_defaults.h"
@@ -21,6 +21,7 @@
 #include "scene/object_mesh.h"
 #include "scene/options.h"
 #include "scene/particle_mesh.h"
+#include "scene/regions.h"
 #include "scene/samples.h"
 #include "scene/scene_births.h"
 #include "scene/source.h"
@@ -296,23 +297,6 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Checks that each region of a force has one shape. */
-static bool check_regions(struct kiln_reader *reader, const struct kiln_node *root,
-                          const struct kiln_system *system)
-{
-    char path[128], key[160];
-    const struct kiln_force *force;
-    for (uint32_t i = 0; (force = kiln_system_force(system, i)) != NULL; i++) {
-        kiln_system_force_path(system, i, path, sizeof path);
-        snprintf(key, sizeof key, "%s.region", path);
-        if (force->region.enabled && force->region.box == force->region.sphere)
-            return kiln_reader_error_at(reader, root, key,
-                                        "must have one of `box` and `sphere`, found %s",
-                                        force->region.box ? "both" : "neither");
-    }
-    return true;
-}
-
 /* Settles what impacts do, which has two keys: `dies` is that of older scenes. */
 static bool settle_impacts(struct kiln_reader *reader, const struct kiln_node *root,
                            struct kiln_system *system)
@@ -426,7 +410,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !kiln_motion_layout_settle(reader, root, system) ||
-            !check_regions(reader, root, system) || !settle_impacts(reader, root, system) ||
+            !kiln_regions_check(reader, root, i) || !settle_impacts(reader, root, system) ||
             !check_interactions(reader, root, system) || !check_distances(reader, root, i) ||
             !kiln_particle_mesh_settle(reader, root, system))
             return false;
@@ -592,7 +576,7 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && kiln_nodes_settle(reader, root) &&
            check_camera(reader, root) && check_backdrop(reader, root) &&
            check_systems(reader, root) && kiln_family_settle(reader, root) &&
-           kiln_sources_settle(reader, root) && kiln_emit_ways_settle(reader, root) &&
-           settle_capacity(reader, root) && kiln_particle_mesh_count(reader, root) &&
-           kiln_samples_settle(reader, root);
+           kiln_gas_settle(reader, root) && kiln_sources_settle(reader, root) &&
+           kiln_emit_ways_settle(reader, root) && settle_capacity(reader, root) &&
+           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root);
 }

@@ -6,6 +6,7 @@
 #include "base/budget.h"
 #include "base/sized.h"
 #include "base/thread.h"
+#include "scene/gas_shape.h"
 #include "scene/instant.h"
 
 /* The program takes this without a scene: for its code, libraries and small things. */
@@ -115,7 +116,7 @@ static const char *key_of(enum kiln_footprint_part part)
     static const char *const keys[KILN_FOOTPRINT_PARTS] = {
         [KILN_FOOTPRINT_PICTURE] = "output.size",      [KILN_FOOTPRINT_TEXTURES] = "systems",
         [KILN_FOOTPRINT_OBJECTS] = "backdrop.objects", [KILN_FOOTPRINT_LIGHTS] = "backdrop.lights",
-        [KILN_FOOTPRINT_BACKDROP] = "backdrop",
+        [KILN_FOOTPRINT_BACKDROP] = "backdrop",        [KILN_FOOTPRINT_GAS] = "gas",
     };
     return keys[part];
 }
@@ -157,6 +158,8 @@ bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root,
         {KILN_LIMIT_frames, scene->frames, "output.frames"},
         {KILN_LIMIT_steps, kiln_work_steps(scene), "output.frames"},
         {KILN_LIMIT_particles, kiln_work_particles(scene), emit},
+        {KILN_LIMIT_gas_cells, kiln_gas_cells(scene), "gas"},
+        {KILN_LIMIT_gas_steps, kiln_gas_cell_steps(scene, kiln_work_steps(scene)), "gas"},
         {KILN_LIMIT_memory, scene->memory_bytes, largest ? largest : emit},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

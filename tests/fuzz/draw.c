@@ -247,8 +247,11 @@ static bool add_name(struct choice *c, const struct kiln_option *row)
         ADD_ONE(c, "\"scenes/textures/card.png\"", "\"scenes/textures/leaf_red.png\"");
     else if (type == &kiln_type_grid)
         ADD_ONE(c, "\"tests/support/whirl.grid\"");
-    else if (type == &kiln_type_name)
+    else if (type == &kiln_type_name || type == &kiln_type_system || type == &kiln_type_domain)
         ADD_ONE(c, "a", "b");
+    else if (type == &kiln_type_forces)
+        ADD_ONE(c, "[curl: 10000]", "[attract: {attach: a, strength: -100000}, drag: 1000]",
+                "[wind: {field: grid, file: \"tests/support/whirl.grid\"}]");
     else if (type == &kiln_type_of)
         ADD_ONE(c, "[curl: 1]", "[vortex: {lift: 10000}, wind: {mode: add}, drag: 1000]",
                 "[attract: {attach: a, strength: -100000}]",
@@ -278,7 +281,8 @@ static void add_value(struct choice *c, const struct kiln_option *row, int depth
 static bool is_chosen(struct choice *c, const struct kiln_option *row, int depth)
 {
     const bool needed = !row->fallback || row->type == &kiln_type_assets ||
-                        row->type == &kiln_type_bursts || row->type == &kiln_type_map ||
+                        row->type == &kiln_type_bursts ||
+                        (row->type == &kiln_type_map && !row->is_hidden_if_empty) ||
                         row->type == &kiln_type_group || row->type == &kiln_type_image ||
                         row->type == &kiln_type_mesh || row->type == &kiln_type_gltf;
     if (row->is_unprinted || row->type == &kiln_type_text || row->type == &kiln_type_rational ||

@@ -13,9 +13,11 @@ BEGIN {
     # sim or draw.
     inner["asset/loader"] = 1; inner["asset/image"] = 2
     inner["asset/geometry"] = inner["asset/atlas"] = 3
-    inner["sim/world"] = 1; inner["sim/crowd"] = inner["sim/paint"] = 2; inner["sim/step"] = 3
+    inner["sim/world"] = 1; inner["sim/crowd"] = inner["sim/gas"] = inner["sim/paint"] = 2
+    inner["sim/step"] = 3
     inner["draw/vector"] = 1; inner["draw/moment"] = 2; inner["draw/light"] = 3
-    inner["draw/backdrop"] = 4; inner["draw/solids"] = 5; inner["draw/sprites"] = 6
+    inner["draw/backdrop"] = 4; inner["draw/solids"] = 5; inner["draw/volume"] = 6
+    inner["draw/sprites"] = 7
     for (room in inner) divided[substr(room, 1, index(room, "/") - 1)] = 1
 
     # A room may have a folder papers/, with techniques that exist for comparison with the papers that describe

@@ -17,8 +17,12 @@ struct numbers {
     uint32_t count;
 };
 
-static void take_rows(struct numbers *outside, struct numbers *inside,
-                      const struct kiln_option *rows);
+/* Rows that are numbered together: those of systems, of domains of gas, and all others. */
+struct sets {
+    struct numbers systems, gas, others;
+};
+
+static void take_rows(struct numbers *outside, struct sets *sets, const struct kiln_option *rows);
 
 static void take_row(struct numbers *numbers, const struct kiln_option *row)
 {
@@ -35,37 +39,42 @@ static void take_row(struct numbers *numbers, const struct kiln_option *row)
     numbers->rows[row->draws] = row;
 }
 
-static void take_kinds(struct numbers *outside, struct numbers *inside,
+static void take_kinds(struct numbers *outside, struct sets *sets,
                        const struct kiln_option_kind *kinds)
 {
     for (; kinds->name; kinds++)
-        take_rows(outside, inside, kinds->members);
+        take_rows(outside, sets, kinds->members);
 }
 
-static void take_rows(struct numbers *outside, struct numbers *inside,
-                      const struct kiln_option *rows)
+static void take_rows(struct numbers *outside, struct sets *sets, const struct kiln_option *rows)
 {
     for (const struct kiln_option *row = rows; row->name; row++) {
-        struct numbers *here = strcmp(row->name, "systems") == 0 ? inside : outside;
+        const bool is_map = row->type == &kiln_type_map;
+        struct numbers *here = is_map && strcmp(row->name, "systems") == 0 ? &sets->systems
+                               : is_map && strcmp(row->name, "gas") == 0   ? &sets->gas
+                                                                           : outside;
         take_row(here, row);
         if (row->members)
-            take_rows(here, inside, row->members);
+            take_rows(here, sets, row->members);
         if (row->kinds)
-            take_kinds(here, inside, row->kinds);
+            take_kinds(here, sets, row->kinds);
         if (row->item && row->item->members)
-            take_rows(here, inside, row->item->members);
+            take_rows(here, sets, row->item->members);
         if (row->item && row->item->kinds)
-            take_kinds(here, inside, row->item->kinds);
+            take_kinds(here, sets, row->item->kinds);
+        if (row->type == &kiln_type_forces)
+            take_kinds(here, sets, kiln_baked_force->kinds);
     }
 }
 
 static void no_number_is_used_twice(void **state)
 {
     (void)state;
-    static struct numbers outside, inside;
-    take_rows(&outside, &inside, kiln_options_root);
-    print_message("%u rows of systems, %u others\n", inside.count, outside.count);
-    assert_true(inside.count > 80 && outside.count > 60);
+    static struct sets sets;
+    take_rows(&sets.others, &sets, kiln_options_root);
+    print_message("%u rows of systems, %u of gas, %u others\n", sets.systems.count, sets.gas.count,
+                  sets.others.count);
+    assert_true(sets.systems.count > 80 && sets.gas.count > 60 && sets.others.count > 60);
 }
 
 /* Returns a scene with as many nodes as there may be, or as many spheres, each with a noise. */

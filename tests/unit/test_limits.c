@@ -54,7 +54,8 @@ static void nonsense_is_refused(void **state)
     (void)state;
     static const char LIMITS[] =
         "'' is not a limit; there are pixels, frames, steps, particles, memory, time, cpu, "
-        "asset_pixels, asset_bytes, triangles, output, and the preset service";
+        "asset_pixels, asset_bytes, triangles, output, gas_cells, gas_steps, and the preset "
+        "service";
 #define A_NUMBER "; expected a number, with k, M or G behind it or without, or none"
 #define BYTES    "; expected a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB, or none"
 #define SECONDS  "; expected seconds, or a time in ms, s, min or h, or none"

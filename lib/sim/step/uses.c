@@ -62,7 +62,7 @@ static void add_force(struct uses *uses, const float4 *keys, const struct kiln_f
     add_curve(uses, KEYED_FORCE_PULL, kiln_value_uses(keys, &force->pull));
     add_curve(uses, KEYED_FORCE_QUADRATIC, kiln_value_uses(keys, &force->quadratic));
     add_curve(uses, KEYED_FORCE_SCALE, kiln_value_uses(keys, &force->scale));
-    uses->forces |= 1u << (uint)force->kind | bit(FORCE_IN_REGION, force->region.enabled);
+    uses->forces |= 1u << kiln_force_number(force) | bit(FORCE_IN_REGION, force->region.enabled);
     uses->forces |=
         bit(FORCE_IN_NODE, force->attach.name != NULL || force->region.attach.name != NULL);
 }

@@ -80,7 +80,7 @@ static void place_region(struct kiln_force_params *params, const struct kiln_sim
 
 static bool has_grid(const struct kiln_force *force)
 {
-    return force->kind == KILN_FORCE_FIELD || force->kind == KILN_FORCE_BAKED;
+    return force->kind == KILN_FORCE_FIELD || kiln_force_is_baked(force);
 }
 
 /* Lets a force lie in its node. Its place does not differ between particles, so it is constant in a
@@ -105,7 +105,7 @@ struct kiln_force_params kiln_sim_force_params(const struct kiln_sim_moment *m,
                                                const struct kiln_force *force)
 {
     struct kiln_force_params params = {
-        .kind = (uint)force->kind,
+        .kind = kiln_force_number(force),
         .octaves = force->octaves,
         .profile = (uint)force->profile,
         .vector = vector_at(m, force->vector),

@@ -60,8 +60,8 @@ bool kiln_sim_grids_needs(const struct kiln_object *object)
 static void list_winds(struct kiln_sim_grids *grids, const struct kiln_scene *scene)
 {
     const struct kiln_force *force;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        for (uint32_t k = 0; (force = kiln_system_force(&scene->systems[i], k)) != NULL; k++) {
+    for (uint32_t i = 0; i < kiln_force_owners(scene); i++) {
+        for (uint32_t k = 0; (force = kiln_owner_force(scene, i, k)) != NULL; k++) {
             if (force->kind == KILN_FORCE_FIELD &&
                 kiln_sim_grids_find(grids, force->file) == grids->file_count)
                 grids->files[grids->file_count++] = force->file;
@@ -71,7 +71,7 @@ static void list_winds(struct kiln_sim_grids *grids, const struct kiln_scene *sc
     for (uint32_t i = 0; i < scene->system_count; i++) {
         for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
             force = &scene->systems[i].forces[k];
-            if (force->kind == KILN_FORCE_BAKED)
+            if (kiln_force_is_baked(force))
                 grids->baked[grids->wind_count++ - grids->file_count] = force;
         }
     }
@@ -331,7 +331,7 @@ void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footpr
         for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
             const struct kiln_force *force = &scene->systems[i].forces[k];
             uint32_t size[3];
-            loaded -= force->kind == KILN_FORCE_BAKED ? kiln_baked_samples(force, size) : 0;
+            loaded -= kiln_force_is_baked(force) ? kiln_baked_samples(force, size) : 0;
         }
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {

@@ -18,7 +18,8 @@ struct kiln_sim_grids {
     uint32_t wind_count; /* of files and of baked winds */
     uint32_t file_count;
     const char *files[KILN_MAX_WINDS]; /* wind file of each grid; the scene owns the texts */
-    const struct kiln_force *baked[KILN_MAX_BAKED]; /* forces whose grids follow those of files */
+    /* forces whose grids follow those of files: baked winds, and winds of gas */
+    const struct kiln_force *baked[KILN_MAX_BAKED];
     uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's grid, if it needs one */
     float top[KILN_MAX_GRIDS];            /* m: highest point of a terrain */
     float steepest[KILN_MAX_GRIDS];       /* of a terrain: the value for struct kiln_collider */

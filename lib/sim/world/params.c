@@ -100,7 +100,7 @@ static uint order_of(const struct kiln_emitter *emit)
     return closed ? ORDER_CLOSED : ORDER_OPEN;
 }
 
-static void fill_emitter(struct kiln_emit_params *params, const struct kiln_emitter *emit)
+void kiln_sim_emitter_fill(struct kiln_emit_params *params, const struct kiln_emitter *emit)
 {
     const bool ring = emit->shape == KILN_EMITTER_RING;
     *params = (struct kiln_emit_params){
@@ -209,7 +209,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .rubs = rubs(scene, &system->collide),
         .carried = system->space.name != NULL,
     };
-    fill_emitter(&params->emit, &system->emit);
+    kiln_sim_emitter_fill(&params->emit, &system->emit);
     for (uint32_t i = 0; i < system->force_count; i++)
         params->forces_do |= what_force_does(&system->forces[i]);
     for (uint32_t i = 0; i < system->demitter_count; i++) {

@@ -36,6 +36,9 @@ bool kiln_sim_bakes_need_all_forces(const struct kiln_scene *scene,
  * paint. */
 bool kiln_sim_is_traced(const struct kiln_scene *scene, uint32_t system);
 
+/* Fills in what of an emitter does not change during a run, but where its words begin. */
+void kiln_sim_emitter_fill(struct kiln_emit_params *params, const struct kiln_emitter *emit);
+
 /* Fills in all that does not change during a run. The grids must outlive the parameters. */
 void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
                           struct kiln_sim_grids *grids);

@@ -77,8 +77,9 @@ static void write_triangle(float4 *words, const uint32_t corners[3], float (*bef
     }
 }
 
-static void pose(float4 *words, const struct kiln_source *source, const struct kiln_object *object,
-                 float (*poses)[6], float start_s, float end_s)
+void kiln_sim_pose_words(float4 *words, const struct kiln_source *source,
+                         const struct kiln_object *object, float (*poses)[6], float start_s,
+                         float end_s)
 {
     const struct kiln_animation *animation = &object->animation;
     const uint32_t vertices = object->shown->vertex_count;
@@ -103,8 +104,8 @@ bool kiln_sim_pose_births(struct kiln_sim_grids *grids, const struct kiln_scene 
         float4 *words = kiln_buffer_host(&grids->words, KILN_READ_WRITE, error);
         if (!words)
             return false;
-        pose(words + grids->sources[i], scene->systems[i].emit.source.made, object, grids->poses[i],
-             start_s, end_s);
+        kiln_sim_pose_words(words + grids->sources[i], scene->systems[i].emit.source.made, object,
+                            grids->poses[i], start_s, end_s);
         grids->posed_step[i] = step;
     }
     return true;

@@ -14,6 +14,12 @@ void kiln_sim_posed_finish(struct kiln_sim_grids *grids);
 /* Adds the memory of the poses. */
 void kiln_sim_posed_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 
+/* Writes the triangles of a mesh with an animation, as they move between two clip times, into the
+ * words of a source. poses: room for twice the vertices of the object. */
+void kiln_sim_pose_words(float4 *words, const struct kiln_source *source,
+                         const struct kiln_object *object, float (*poses)[6], float start_s,
+                         float end_s);
+
 /* Writes the triangles of a step, from 1, into the words of the grids. */
 bool kiln_sim_pose_births(struct kiln_sim_grids *grids, const struct kiln_scene *scene,
                           uint32_t step, struct kiln_error *error);
