@@ -263,7 +263,7 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
     return loop;
 }
 
-/* The pool of the state before a step keeps no paint. */
+/* The pool of the state before a step keeps neither paint nor gas. */
 static bool init_pools(struct kiln_loop *loop, struct kiln_error *error)
 {
     struct kiln_device *device = kiln_device_gl(loop->device);
@@ -271,6 +271,7 @@ static bool init_pools(struct kiln_loop *loop, struct kiln_error *error)
     if (!kiln_pool_init(&loop->run.pool, device, &layout, error))
         return false;
     layout.canvas_count = 0;
+    layout.gas_count = 0;
     return kiln_pool_init(&loop->before, device, &layout, error);
 }
 

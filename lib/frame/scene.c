@@ -3,6 +3,7 @@
 #include "asset/loader/loader.h"
 #include "frame/stages.h"
 #include "kiln.h"
+#include "scene/gas_shape.h"
 #include "scene/instant.h"
 #include "scene/load.h"
 #include "scene/pool_layout.h"
@@ -28,6 +29,7 @@ static void estimate(const struct kiln_scene *scene, struct kiln_footprint *foot
         kiln_between_footprint(scene, footprint);
     }
     kiln_simulate_footprint(scene, footprint);
+    kiln_scene_gas_footprint(scene, footprint);
     kiln_sort_depth_footprint(kiln_work_particles(scene), footprint);
     kiln_stages_footprint(scene, footprint);
 }

@@ -42,28 +42,39 @@ static bool init_on_device(struct kiln_bakes *bakes, const struct kiln_sim_grids
     return bakes->program != 0;
 }
 
+/* Returns whether forces are summed up on the host: baked winds without a device, or those of gas.
+ */
+static bool needs_host(const struct kiln_bakes *bakes, const struct kiln_sim_grids *grids)
+{
+    const struct kiln_scene *scene = bakes->scene;
+    bool any = bake_count(grids) > 0 && !bakes->device;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        any = any || scene->gas[i].force_count > 0;
+    return any;
+}
+
 bool kiln_bakes_init(struct kiln_bakes *bakes, struct kiln_device *device,
                      const struct kiln_scene *scene, const struct kiln_sim_grids *grids,
                      struct kiln_error *error)
 {
-    uint32_t found = 0;
+    uint32_t found = 0, baked = 0; /* those of gas are not written here */
     *bakes = (struct kiln_bakes){.scene = scene, .device = device};
     kiln_buffer_init(&bakes->block, device, sizeof bakes->params, "baked wind");
     for (uint32_t i = 0; i < scene->system_count; i++) {
         for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
-            if (scene->systems[i].forces[k].kind == KILN_FORCE_BAKED)
+            const struct kiln_force *force = &scene->systems[i].forces[k];
+            baked += force->kind == KILN_FORCE_BAKED;
+            if (kiln_force_is_baked(force))
                 bakes->system[found++] = i; /* in the order of grids->baked */
         }
     }
-    if (bake_count(grids) == 0)
-        return true;
-    if (device)
-        return init_on_device(bakes, grids, error);
-    enum kiln_simd simd;
-    if (!kiln_simd_choose(&simd, error))
-        return false;
-    bakes->bake_points = KILN_SIMD_PICK(kiln_bake_points, simd);
-    return true;
+    if (needs_host(bakes, grids)) {
+        enum kiln_simd simd;
+        if (!kiln_simd_choose(&simd, error))
+            return false;
+        bakes->bake_points = KILN_SIMD_PICK(kiln_bake_points, simd);
+    }
+    return !device || baked == 0 || init_on_device(bakes, grids, error);
 }
 
 void kiln_bakes_finish(struct kiln_bakes *bakes)
@@ -76,26 +87,36 @@ void kiln_bakes_finish(struct kiln_bakes *bakes)
 
 /* ---- writing --------------------------------------------------------------------------------- */
 
+/* Fills in the parameters of forces that a step evaluates without particles. of: has the keys of
+ * the values; system: the number of the system that the values are of. */
+static void fill_forces(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                        const struct kiln_derived_params *of, uint32_t system,
+                        const struct kiln_force *forces, uint32_t count, uint32_t step)
+{
+    const struct kiln_scene *scene = bakes->scene;
+    const struct kiln_sim_moment moment = {scene, system, kiln_sim_forces_s(scene, step)};
+    bakes->params = (struct kiln_step_params){
+        .derived = *of,
+        .step = step,
+        .force_count = count,
+        .integration = (uint)scene->integration,
+        .noise_seed = random_noise_key(scene->seed),
+        .time_s = kiln_scene_time(scene, step - 1),
+    };
+    for (uint32_t k = 0; k < count; k++)
+        bakes->params.forces[k] = kiln_sim_force_params(&moment, params->grids, &forces[k]);
+}
+
 /* Fills in the parameters of baked wind i in a step, and returns the frame of its grid. */
 static struct kiln_still_frame fill_params(struct kiln_bakes *bakes,
                                            const struct kiln_sim_params *params, uint32_t i,
                                            uint32_t step)
 {
-    const struct kiln_scene *scene = bakes->scene;
     const struct kiln_force *baked = params->grids->baked[i];
-    const struct kiln_step_params *of = &params->systems[bakes->system[i]];
-    const struct kiln_sim_moment moment = {scene, bakes->system[i], kiln_sim_forces_s(scene, step)};
-    bakes->params = (struct kiln_step_params){
-        .derived = of->derived,
-        .step = step,
-        .force_count = baked->of.count,
-        .integration = of->integration,
-        .noise_seed = of->noise_seed,
-        .time_s = kiln_scene_time(scene, step - 1),
-    };
-    for (uint32_t k = 0; k < baked->of.count; k++)
-        bakes->params.forces[k] = kiln_sim_force_params(&moment, params->grids, &baked->of.at[k]);
-    return kiln_sim_frame(scene, &baked->attach, moment.time_s);
+    const uint32_t system = bakes->system[i];
+    fill_forces(bakes, params, &params->systems[system].derived, system, baked->of.at,
+                baked->of.count, step);
+    return kiln_sim_frame(bakes->scene, &baked->attach, kiln_sim_forces_s(bakes->scene, step));
 }
 
 static bool write_on_host(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
@@ -139,12 +160,38 @@ static bool write_in_gl(struct kiln_bakes *bakes, const struct kiln_sim_params *
     return kiln_device_check(bakes->device, "baked wind", error);
 }
 
+void kiln_bakes_of_gas(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                       const struct kiln_sim *around, struct kiln_threads *threads, uint32_t domain,
+                       const struct kiln_grid *grid, uint32_t step, float4 *words)
+{
+    const struct kiln_scene *scene = bakes->scene;
+    const struct kiln_gas_domain *gas = &scene->gas[domain];
+    const struct value_clocks clocks = kiln_scene_clocks(scene, KILN_SYSTEM_OF_GAS(domain), 0.0f);
+    const struct kiln_derived_params derived = {.random_key = clocks.system,
+                                                .scene_key = clocks.scene};
+    fill_forces(bakes, params, &derived, KILN_SYSTEM_OF_GAS(domain), gas->forces, gas->force_count,
+                step);
+    struct kiln_bake_work work = {
+        .sim = {.step = &bakes->params,
+                .surroundings = &params->surroundings,
+                .value_keys = scene->keys,
+                .grid_words = around->grid_words},
+        .grid = *grid,
+        .node = kiln_sim_frame(scene, &gas->attach, kiln_sim_forces_s(scene, step)),
+        .words = words,
+    };
+    kiln_threads_for(threads, (size_t)grid->size.x * grid->size.y * grid->size.z, POINTS_AT_A_TIME,
+                     bakes->bake_points, &work);
+}
+
 bool kiln_bakes_step(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
                      struct kiln_threads *threads, uint32_t step, struct kiln_error *error)
 {
     const struct kiln_sim_grids *grids = params->grids;
     for (uint32_t i = 0; i < bake_count(grids); i++) {
         const uint32_t number = grids->file_count + i;
+        if (grids->baked[i]->kind == KILN_FORCE_GAS)
+            continue; /* the gas writes it */
         const uint32_t wanted = kiln_baked_step(grids->baked[i], step);
         if (bakes->written[i] == wanted)
             continue;

@@ -43,4 +43,10 @@ void kiln_bakes_finish(struct kiln_bakes *bakes);
 bool kiln_bakes_step(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
                      struct kiln_threads *threads, uint32_t step, struct kiln_error *error);
 
+/* Writes the sums of the forces of a domain of gas at the points of a grid in the domain's frame,
+ * on the host. params: of the step; around: has the grids that forces look up. */
+void kiln_bakes_of_gas(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                       const struct kiln_sim *around, struct kiln_threads *threads, uint32_t domain,
+                       const struct kiln_grid *grid, uint32_t step, float4 *words);
+
 #endif

@@ -1,7 +1,7 @@
 /* This file runs the simulation stage; the loop over a clip (frame/loop.c) calls it once a step. A
- * step makes the volumes of moving meshes, counts births on the host, computes the forces of
- * particles on each other (pushes), writes the grids of baked winds, moves the particles by the
- * chosen technique, and lets particles paint the meshes that they hit. */
+ * step makes the volumes of moving meshes, counts births on the host, steps gas, computes the
+ * forces of particles on each other (pushes), writes the grids of baked winds, moves the particles
+ * by the chosen technique, and lets particles paint the meshes that they hit. */
 #include "sim/step/simulate.h"
 
 #include <stdlib.h>
@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "shared/trace.h"
 #include "sim/crowd/interact.h"
+#include "sim/gas/gas.h"
+#include "sim/gas/wind.h"
 #include "sim/paint/paint.h"
 #include "sim/step/bakes.h"
 #include "sim/step/cpu.h"
@@ -31,6 +33,7 @@ struct kiln_simulate {
     struct kiln_sim_params params;
     struct kiln_sim_grids grids;
     struct kiln_bakes bakes;
+    struct kiln_gas_stage gas;
     /* struct kiln_trace: what particles did in the present step, for the births of their children
      * and for paint. Each step rewrites it, so it is not part of the state. */
     struct kiln_buffer traces;
@@ -92,6 +95,7 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_buffer_init(&simulate->traces, side,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
     ok = ok && kiln_bakes_init(&simulate->bakes, side, scene, &simulate->grids, error) &&
+         kiln_gas_stage_init(&simulate->gas, scene, threads, error) &&
          kiln_interact_init(&simulate->interact, side, scene, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
     ok = ok &&
@@ -109,6 +113,7 @@ void kiln_simulate_footprint(const struct kiln_scene *scene, struct kiln_footpri
                                sizeof(struct kiln_trace));
     }
     kiln_sim_grids_footprint(scene, footprint);
+    kiln_gas_footprint(scene, footprint);
     kiln_interact_footprint(scene, footprint);
     kiln_paint_footprint(scene, footprint);
 }
@@ -129,6 +134,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     kiln_paint_finish(&s->paint);
     kiln_interact_finish(&s->interact);
     kiln_buffer_finish(&s->traces);
+    kiln_gas_stage_finish(&s->gas);
     kiln_bakes_finish(&s->bakes);
     kiln_sim_grids_finish(&s->grids);
     free(s);
@@ -141,11 +147,28 @@ static struct kiln_buffer *find_keys(struct kiln_simulate *s)
     return s->grids.key_words > 0 ? &s->grids.words : &s->blocks.keys;
 }
 
+/* Fills in the forces of a domain of gas. */
+static void blow_on_gas(void *context, const struct kiln_sim *around, uint32_t domain,
+                        const struct kiln_grid *grid, uint32_t step, float4 *words)
+{
+    struct kiln_simulate *s = context;
+    kiln_bakes_of_gas(&s->bakes, &s->params, around, s->threads, domain, grid, step, words);
+}
+
+static bool move_gas(struct kiln_simulate *s, struct kiln_pool *pool, uint32_t step,
+                     struct kiln_error *error)
+{
+    const struct kiln_gas_forces forces = {s, blow_on_gas};
+    return kiln_gas_stage_step(&s->gas, pool, &s->params, &forces, step, error) &&
+           kiln_gas_winds_write(s->scene, pool, &s->params, s->threads, step, error);
+}
+
 static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint32_t step,
                            struct kiln_error *error)
 {
     if (!kiln_volumes_step(&s->grids.volumes, s->scene, step, s->threads, error) ||
-        !kiln_sim_params_step(&s->params, s->scene, pool, step, error))
+        !kiln_sim_params_step(&s->params, s->scene, pool, step, error) ||
+        !move_gas(s, pool, step, error))
         return false;
     const bool host = s->row == NULL;
     struct kiln_buffer *pushes = &s->interact.pushes;
@@ -189,12 +212,20 @@ bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                          : kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
     if (ok)
         kiln_paint_hash(pool, hash);
+    for (uint32_t i = 0; ok && i < pool->gas_count; i++)
+        kiln_gas_hash(&pool->gas[i], i, hash);
     return ok;
+}
+
+void kiln_simulate_gas_seconds(struct kiln_simulate *simulate, double seconds[])
+{
+    kiln_gas_stage_seconds(&simulate->gas, seconds);
 }
 
 const char *kiln_simulate_warning(struct kiln_simulate *simulate)
 {
-    return kiln_interact_warning(&simulate->interact);
+    const char *warning = kiln_gas_stage_warning(&simulate->gas);
+    return warning ? warning : kiln_interact_warning(&simulate->interact);
 }
 
 size_t kiln_simulate_slot_bytes(enum kiln_simulate_technique technique)

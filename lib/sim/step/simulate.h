@@ -45,6 +45,10 @@ bool kiln_simulate_hide_births(struct kiln_simulate *simulate, struct kiln_pool 
  * simulation. */
 const char *kiln_simulate_warning(struct kiln_simulate *simulate);
 
+/* Fills in the seconds of processors that each pass of the steps of gas has taken (enum gas_timer
+ * of sim/gas/solver.h). They count from the first call on. */
+void kiln_simulate_gas_seconds(struct kiln_simulate *simulate, double seconds[]);
+
 /* Computes the state hash, which includes paint, and the number of living particles, on the side
  * where the state lies. */
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,

@@ -1,0 +1,104 @@
+/* Steps a domain of gas (Heinz 2019, 2.3.2). Air and what it carries are moved along, burn and rise
+ * (advect.h); the change of the velocity goes to the faces of cells (faces.h); pressure makes it
+ * flow out of each cell as much as burning expands it (multigrid.h).
+ *
+ * All bits are the same at every level of vectors and for any number of threads. */
+#ifndef KILN_SIM_GAS_SOLVER_H
+#define KILN_SIM_GAS_SOLVER_H
+
+#include "sim/gas/advect.h"
+#include "sim/gas/faces.h"
+#include "sim/gas/multigrid.h"
+
+/* How air that is at rest in the world moves in a domain: its velocity at the origin of the
+ * domain's frame, m/s, and how it turns about it, rad/s. */
+struct gas_rest {
+    float velocity[3], spin[3];
+};
+
+/* The passes of a step, for their times. */
+enum gas_timer {
+    GAS_TIMER_TRACE,
+    GAS_TIMER_REACT,
+    GAS_TIMER_SOURCES,
+    GAS_TIMER_WALLS,
+    GAS_TIMER_PUSH,
+    GAS_TIMER_DIVERGE,
+    GAS_TIMER_PRESSURE,
+    GAS_TIMER_PROJECT,
+    GAS_TIMERS,
+};
+
+struct gas_list {
+    gas_brick_place *brick;
+    uint32_t count;
+};
+
+/* Bricks of the domain from `low` to before `high` on each axis. */
+struct gas_region {
+    struct kiln_gas_place low, high;
+};
+
+/* Works on active bricks between two passes of a step. */
+struct gas_hooks {
+    void *context;
+    /* Adds sources to `now` and `change` of a brick, and returns how much smoke it added to its
+     * cells. Sets *any if a source reaches a cell. NULL: there are none. */
+    double (*add)(void *context, const struct gas_pass *pass, gas_brick_place at, bool *any);
+    /* Moves the walls to the end of the substep, and fills `open` of the finest level. NULL: there
+     * are none. False when memory is short. */
+    bool (*move_walls)(void *context, struct gas_pass *pass, const struct gas_levels *levels);
+};
+
+struct gas_solver {
+    struct kiln_gas *gas;
+    struct kiln_threads *threads;
+    const struct gas_advect *advect;
+    const struct gas_faces *faces;
+    const struct gas_multigrid *multigrid;
+    uint32_t window; /* of the gas, that the following are for */
+    struct gas_levels levels;
+    struct gas_list active, pushed; /* bricks of the window; of the latter, also their neighbours */
+    struct gas_found *found;        /* of each active brick */
+    double *added;                  /* smoke, of each active brick */
+    float *fastest;                 /* of each plane */
+    struct gas_workspace *spaces;   /* of each thread */
+    float *idle_changes;            /* memory of the changes of idle bricks; NULL: there are none */
+    bool has_walls, blows;          /* as gas_solver_prepare was told */
+    struct gas_rest rest;           /* of the air that a window did not have before */
+    bool measures;                  /* times are taken */
+    double seconds[GAS_TIMERS];     /* of processors */
+    double left_over; /* part of the divergence that the last step left, if one was asked for */
+};
+
+/* Why a step failed. */
+enum gas_failure {
+    GAS_STEPPED,
+    GAS_NO_MEMORY,
+    GAS_STOPPED, /* the caller of the threads wants no more */
+    GAS_WRONG,   /* a number is not finite: gas_solver_find_wrong */
+};
+
+/* Initialises a solver for a gas, which is borrowed, as the threads are. */
+bool gas_solver_init(struct gas_solver *solver, struct kiln_gas *gas, struct kiln_threads *threads,
+                     enum kiln_simd simd);
+void gas_solver_finish(struct gas_solver *solver);
+
+/* Returns the bytes that solving a window of cells takes, beside the gas itself. */
+uint64_t gas_solver_bytes(struct kiln_gas_place cells, bool has_walls, bool blows);
+
+/* Moves the window, and wakes the bricks that have gas, are beside such a brick, or lie in one of
+ * the regions. blows: forces also act where there is no gas. False when memory is short. */
+bool gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regions,
+                        uint32_t region_count, bool has_walls, bool blows);
+
+/* Runs a substep. cycles: of the multigrid. residual: part of the divergence that may be left,
+ * which takes up to four times as many cycles; 0: as it comes. */
+enum gas_failure gas_solver_step(struct gas_solver *solver, struct gas_pass *pass,
+                                 const struct gas_hooks *hooks, uint32_t cycles, double residual,
+                                 struct kiln_error *error);
+
+/* Finds a cell of the domain with a number that is not finite. False: there is none. */
+bool gas_solver_find_wrong(const struct gas_solver *solver, struct kiln_gas_place *cell);
+
+#endif
