@@ -273,6 +273,7 @@ struct kiln_frame_range {
     X(sort)                                                                                        \
     X(lighting)                                                                                    \
     X(backdrop)                                                                                    \
+    X(gas)                                                                                         \
     X(particles)                                                                                   \
     X(bloom)                                                                                       \
     X(composite)                                                                                   \

@@ -164,7 +164,7 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
     struct particle_pass all = {.systems = fire | smoke,
                                 .by_depth = smoke != 0 || fire_covers,
                                 .framebuffer = &s->particle_framebuffer,
-                                .keep_bloom = s->solids != NULL,
+                                .keep_bloom = s->solids || s->volume,
                                 .fire_covers = fire_covers,
                                 .by_fragment = by_fragment,
                                 .covering = s->layers ? &s->smoke_color : NULL,
@@ -194,7 +194,7 @@ static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_er
     struct particle_pass smoke = {.systems = transparent_systems(s, KILN_BLEND_ALPHA),
                                   .by_depth = true,
                                   .framebuffer = &s->particle_framebuffer,
-                                  .keep_bloom = s->solids != NULL};
+                                  .keep_bloom = s->solids || s->volume};
     struct particle_pass fire = {.systems = transparent_systems(s, KILN_BLEND_ADD),
                                  .framebuffer = &s->fire_framebuffer,
                                  .keep_bloom = true,
@@ -244,9 +244,9 @@ static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error
 static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct kiln_pool *pool,
                         struct kiln_instant instant, bool first, struct kiln_error *error)
 {
-    const bool shared = !first && kiln_instants_coincide(instant, s->instant);
+    s->same_instant = !first && kiln_instants_coincide(instant, s->instant);
     s->instant = instant;
-    if (shared) {
+    if (s->same_instant) {
         kiln_moment_set_view(&s->moment, instant);
         return advance_history(s, s->moment.pool, error);
     }
@@ -274,6 +274,34 @@ static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_err
                                    kiln_coarse_prepare(s->coarse, &s->scene_depth, error), error));
 }
 
+/* Draws gas, and its glow, before the particles. */
+static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, struct kiln_error *error)
+{
+    const struct kiln_volume_draw draw = {.moment = &s->moment,
+                                          .pool = pool,
+                                          .backdrop = kiln_backdrop_block(s->backdrop),
+                                          .depth = &s->scene_depth,
+                                          .same = s->same_instant};
+    return RUN_PASS(
+        s, KILN_PASS_gas,
+        kiln_volume_draw(s->volume, &draw, error) &&
+            (!s->glow || kiln_volume_add_glow(s->volume, &s->bloom_color, s->solids, error)),
+        error);
+}
+
+/* Puts gas under the particles of all images that show it: its smoke under smoke, and its flames
+ * to fire, where the two are apart. */
+static bool put_gas(struct kiln_stages *s, struct kiln_error *error)
+{
+    const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
+    const enum kiln_volume_light_of light = separate ? KILN_VOLUME_SMOKE : KILN_VOLUME_ALL;
+    return kiln_volume_put_under(s->volume, light, &s->particle_color, error) &&
+           ((!separate && !s->layers) ||
+            kiln_volume_put_under(s->volume, KILN_VOLUME_FLAME, &s->fire_color, error)) &&
+           (separate || !s->layers ||
+            kiln_volume_put_under(s->volume, KILN_VOLUME_SMOKE, &s->smoke_color, error));
+}
+
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, struct kiln_pool *pool,
                       struct kiln_instant instant, uint32_t moment, uint32_t *drawn,
                       struct kiln_error *error)
@@ -282,9 +310,11 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     uint32_t solids = 0;
     if (!fill_moment(s, before, pool, instant, moment == 0, error) ||
-        !draw_scenery(s, &solids, error))
+        !draw_scenery(s, &solids, error) || (s->volume && !draw_gas(s, pool, error)))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
+        return false;
+    if (s->volume && !RUN_PASS(s, KILN_PASS_gas, put_gas(s, error), error))
         return false;
     *drawn += solids;
     return !s->shutter || RUN_PASS(s, KILN_PASS_composite, add_moment(s, moment, error), error);

@@ -10,6 +10,7 @@
 #include "draw/solids/solids.h"
 #include "draw/sprites/coarse.h"
 #include "draw/sprites/particles.h"
+#include "draw/volume/volume.h"
 #include "frame/run.h"
 #include "frame/technique.h"
 #include "gpu/timer.h"
@@ -35,6 +36,7 @@ struct kiln_stages {
     struct kiln_between *between; /* NULL if all moments are at the ends of steps */
     struct kiln_moment moment;    /* the moment that is being drawn */
     struct kiln_instant instant;  /* of the moment */
+    bool same_instant;            /* the moment differs from the one before by its view alone */
     struct kiln_lighting_stage *lighting;
     struct kiln_lighting light; /* of the moment */
     bool on_host;               /* a drawing stage reads particles on the host */
@@ -42,6 +44,7 @@ struct kiln_stages {
     struct kiln_particles_stage *particles;
     struct kiln_coarse_stage *coarse;   /* NULL if particles are drawn at the frame's resolution */
     struct kiln_solids_stage *solids;   /* NULL if no system has opaque particles */
+    struct kiln_volume_stage *volume;   /* NULL if the scene has no gas */
     struct kiln_shutter_stage *shutter; /* NULL if a frame is a single moment */
     struct kiln_bloom_stage *bloom;
     struct kiln_composite_stage *composite;

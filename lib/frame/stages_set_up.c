@@ -166,6 +166,15 @@ static bool init_drawing(struct kiln_stages *s, const struct kiln_techniques *te
     return true;
 }
 
+/* Creates the stage of gas, if there is gas. */
+static bool init_volume(struct kiln_stages *s, struct kiln_error *error)
+{
+    if (!kiln_volume_exists(s->scene))
+        return true;
+    s->volume = kiln_volume_create(&s->moment, s->glow, s->threads, error);
+    return s->volume != NULL;
+}
+
 /* Creates what moments within a step, and frames of several moments, need. */
 static bool init_moments(struct kiln_stages *s, const struct kiln_techniques *techniques,
                          struct kiln_error *error)
@@ -215,7 +224,8 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
                         struct kiln_output_needs needs, struct kiln_error *error)
 {
     return init_sort(s, techniques, error) && init_drawing(s, techniques, error) &&
-           init_moments(s, techniques, error) && init_post(s, techniques, needs, error);
+           init_volume(s, error) && init_moments(s, techniques, error) &&
+           init_post(s, techniques, needs, error);
 }
 
 bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
@@ -268,6 +278,7 @@ void kiln_stages_footprint(const struct kiln_scene *scene, struct kiln_footprint
         kiln_solids_cpu_footprint(scene, footprint);
     kiln_raster_cpu_footprint(scene, layers, footprint);
     kiln_coarse_footprint(scene, footprint);
+    kiln_volume_footprint(scene, footprint);
     if (kiln_scene_moment_count(scene) > 1)
         kiln_shutter_footprint(scene, footprint);
     kiln_bloom_footprint(scene, footprint);
@@ -279,6 +290,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_composite_destroy(&stages->composite);
     kiln_bloom_destroy(&stages->bloom);
     kiln_shutter_destroy(&stages->shutter);
+    kiln_volume_destroy(&stages->volume);
     kiln_solids_destroy(&stages->solids);
     kiln_coarse_destroy(&stages->coarse);
     kiln_particles_destroy(&stages->particles);

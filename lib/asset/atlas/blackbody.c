@@ -48,28 +48,54 @@ void kiln_observer_fill(struct kiln_observer *observer)
     }
 }
 
-void kiln_blackbody_color(const struct kiln_observer *observer, float kelvin, float rgb[3])
+/* Sums up the spectrum of a black body in CIE XYZ, up to a factor. */
+static void sum_xyz(const struct kiln_observer *observer, float kelvin, float xyz[3])
 {
-    rgb[0] = rgb[1] = rgb[2] = 0.0f;
-    if (!(kelvin >= 400.0f))
-        return;
-
-    float x = 0.0f, y = 0.0f, z = 0.0f;
+    xyz[0] = xyz[1] = xyz[2] = 0.0f;
     for (int i = 0; i < KILN_OBSERVER_SAMPLES; i++) {
         float power = planck(wavelength(i), kelvin);
-        x += power * observer->xyz[i][0];
-        y += power * observer->xyz[i][1];
-        z += power * observer->xyz[i][2];
+        for (int k = 0; k < 3; k++)
+            xyz[k] += power * observer->xyz[i][k];
     }
-    if (!(y > 0.0f))
-        return;
+}
 
-    float relative = kelvin / 1900.0f;
-    float scale = relative * relative * relative * relative / y;
-    float r = (3.2406f * x - 1.5372f * y - 0.4986f * z) * scale;
-    float g = (-0.9689f * x + 1.8758f * y + 0.0415f * z) * scale;
-    float b = (0.0557f * x - 0.2040f * y + 1.0570f * z) * scale;
+static void rgb_of(const float xyz[3], float scale, float rgb[3])
+{
+    const float x = xyz[0], y = xyz[1], z = xyz[2];
+    const float r = (3.2406f * x - 1.5372f * y - 0.4986f * z) * scale;
+    const float g = (-0.9689f * x + 1.8758f * y + 0.0415f * z) * scale;
+    const float b = (0.0557f * x - 0.2040f * y + 1.0570f * z) * scale;
     rgb[0] = r > 0.0f ? r : 0.0f;
     rgb[1] = g > 0.0f ? g : 0.0f;
     rgb[2] = b > 0.0f ? b : 0.0f;
+}
+
+void kiln_blackbody_color(const struct kiln_observer *observer, float kelvin, float rgb[3])
+{
+    float xyz[3];
+    rgb[0] = rgb[1] = rgb[2] = 0.0f;
+    if (!(kelvin >= 400.0f))
+        return;
+    sum_xyz(observer, kelvin, xyz);
+    if (!(xyz[1] > 0.0f))
+        return;
+    float relative = kelvin / 1900.0f;
+    rgb_of(xyz, relative * relative * relative * relative / xyz[1], rgb);
+}
+
+float kiln_blackbody_luminance(const struct kiln_observer *observer, float kelvin)
+{
+    float xyz[3] = {0.0f, 0.0f, 0.0f};
+    if (kelvin >= 400.0f)
+        sum_xyz(observer, kelvin, xyz);
+    return xyz[1];
+}
+
+void kiln_blackbody_light(const struct kiln_observer *observer, float kelvin, float luminance,
+                          float rgb[3])
+{
+    float xyz[3] = {0.0f, 0.0f, 0.0f};
+    if (kelvin >= 400.0f)
+        sum_xyz(observer, kelvin, xyz);
+    rgb_of(xyz, luminance > 0.0f ? 1.0f / luminance : 0.0f, rgb);
 }

@@ -16,4 +16,12 @@ void kiln_observer_fill(struct kiln_observer *observer);
  * part. 0 below 400 K. */
 void kiln_blackbody_color(const struct kiln_observer *observer, float kelvin, float rgb[3]);
 
+/* Returns the luminance of a black body by Planck's law, in a unit of its own. 0 below 400 K. */
+float kiln_blackbody_luminance(const struct kiln_observer *observer, float kelvin);
+
+/* Computes the linear Rec. 709 light of a black body by Planck's law, in parts of a luminance of
+ * kiln_blackbody_luminance; black if that is 0. */
+void kiln_blackbody_light(const struct kiln_observer *observer, float kelvin, float luminance,
+                          float rgb[3]);
+
 #endif

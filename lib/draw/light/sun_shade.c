@@ -81,7 +81,7 @@ void kiln_sun_shade_destroy(struct kiln_sun_shade **shade)
     *shade = NULL;
 }
 
-static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment *moment)
+void kiln_sun_shade_place(struct kiln_sun_shade *shade, const struct kiln_moment *moment)
 {
     const struct kiln_mesh *const *meshes = moment->meshes.loaded;
     shade->sun = moment->sun;
@@ -96,7 +96,7 @@ static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment
 struct shade_job {
     const struct kiln_sun_shade *shade;
     kiln_appearance_find *find;
-    kiln_sun_shade_block *shade_block;
+    enum kiln_simd simd;
     struct kiln_appearance_system system;
     float *visible; /* by slot of the system */
 };
@@ -110,19 +110,25 @@ static float past_meshes(const struct kiln_sun_shade *shade, struct kiln_ball ba
     return visible;
 }
 
-/* Computes the shade of a block of particles. The parts that objects let through are multiplied, as
- * on the backdrop's surfaces. */
+/* The parts that objects let through are multiplied, as on the backdrop's surfaces. */
+void kiln_sun_shade_balls(const struct kiln_sun_shade *shade, enum kiln_simd simd,
+                          const struct kiln_appearance_block *block, float *visible)
+{
+    kiln_sun_shade_block *shade_block = KILN_SIMD_PICK(kiln_sun_shade_block, simd);
+    shade_block(shade->shapes, &shade->casters, shade->from_sun, &shade->sun, block, visible);
+    for (uint32_t i = 0; i < KILN_LANES && shade->shapes->counts.z > 0; i++) {
+        const struct kiln_ball ball = {kiln_get3(&block->position, i), block->radius[i]};
+        visible[i] *= block->alive[i] ? past_meshes(shade, ball) : 1.0f;
+    }
+}
+
+/* Computes the shade of a block of particles. */
 static void shade_block(const struct shade_job *job, uint32_t first)
 {
-    const struct kiln_sun_shade *shade = job->shade;
     struct kiln_appearance_block block;
     alignas(64) float visible[KILN_LANES];
     job->find(&job->system, first, &block);
-    job->shade_block(shade->shapes, &shade->casters, shade->from_sun, &shade->sun, &block, visible);
-    for (uint32_t i = 0; i < KILN_LANES && shade->shapes->counts.z > 0; i++) {
-        const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
-        visible[i] *= block.alive[i] ? past_meshes(shade, ball) : 1.0f;
-    }
+    kiln_sun_shade_balls(job->shade, job->simd, &block, visible);
     const uint32_t left = job->system.used - first;
     memcpy(job->visible + first, visible,
            (left < KILN_LANES ? left : KILN_LANES) * sizeof *visible);
@@ -146,11 +152,11 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_
         kiln_error_no_memory(error, "the shade of particles");
         return NULL;
     }
-    place_objects(shade, moment);
+    kiln_sun_shade_place(shade, moment);
     for (uint32_t i = 0; i < shade->scene->system_count; i++) {
         struct shade_job job = {.shade = shade,
                                 .find = KILN_SIMD_PICK(kiln_appearance_find, moment->simd),
-                                .shade_block = KILN_SIMD_PICK(kiln_sun_shade_block, moment->simd)};
+                                .simd = moment->simd};
         if (!kiln_sun_shade_concerns(shade->scene, i))
             continue;
         job.system = kiln_appearance_system(moment, i);

@@ -1,0 +1,535 @@
+/* This file runs the stage that draws gas. For each domain it copies the gas that is seen to
+ * blocks, lights them, lists the tiles of the picture that they touch, and marches through these
+ * tiles. Domains are drawn from the farthest to the nearest. */
+#include "draw/volume/volume.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/pages.h"
+#include "draw/light/sun_shade.h"
+#include "draw/moment/appearance_blocks.h"
+#include "draw/volume/volume_glow.h"
+#include "draw/volume/volume_light.h"
+#include "draw/volume/volume_march.h"
+#include "draw/volume/volume_tiles.h"
+#include "scene/gas_extent.h"
+
+struct kiln_volume_stage {
+    const struct kiln_scene *scene;
+    struct kiln_threads *threads;
+    enum kiln_simd simd;
+    struct kiln_observer observer;
+    struct kiln_flame_colors colors[KILN_MAX_GAS];
+    struct kiln_sun_shade *shade;   /* NULL: there are no objects */
+    struct kiln_volume_field field; /* of the domain that is being drawn, as all that follows */
+    bool lit;                       /* the field is whole, with its light */
+    struct kiln_volume_slices slices;
+    struct kiln_volume_glow glow;
+    struct kiln_volume_tiles tiles;
+    uint8_t *touched; /* of each tile: gas was drawn there */
+    struct kiln_volume_planes planes;
+    uint32_t width, height;
+};
+
+static uint32_t tiles_along(uint32_t pixels)
+{
+    return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
+}
+
+static size_t tile_count(const struct kiln_scene *scene)
+{
+    return (size_t)tiles_along(scene->width) * tiles_along(scene->height);
+}
+
+bool kiln_volume_exists(const struct kiln_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->gas_count; i++) {
+        if (scene->gas[i].enabled)
+            return true;
+    }
+    return false;
+}
+
+struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, bool glow,
+                                             struct kiln_threads *threads, struct kiln_error *error)
+{
+    const struct kiln_scene *scene = moment->scene;
+    const size_t plane = 4 * sizeof(float) * (size_t)scene->width * scene->height;
+    struct kiln_volume_stage *stage = calloc(1, sizeof *stage);
+    if (stage) {
+        stage->scene = scene;
+        stage->threads = threads;
+        stage->simd = moment->simd;
+        stage->width = scene->width;
+        stage->height = scene->height;
+        stage->planes.pitch = scene->width;
+        stage->planes.smoke = kiln_alloc_pages(plane);
+        stage->planes.flame = kiln_alloc_pages(plane);
+        stage->planes.glow = glow ? kiln_alloc_pages(plane) : NULL;
+        stage->touched = malloc(tile_count(scene));
+        kiln_observer_fill(&stage->observer);
+    }
+    if (stage && scene->backdrop.object_count > 0)
+        stage->shade = kiln_sun_shade_create(scene, error);
+    if (!stage || (scene->backdrop.object_count > 0 && !stage->shade) || !stage->planes.smoke ||
+        !stage->planes.flame || !stage->touched || (glow && !stage->planes.glow)) {
+        kiln_error_no_memory(error, "drawn gas");
+        kiln_volume_destroy(&stage);
+    }
+    return stage;
+}
+
+void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+{
+    const uint64_t pixels = (uint64_t)scene->width * scene->height;
+    uint64_t largest = 0;
+    if (!kiln_volume_exists(scene))
+        return;
+    for (uint32_t i = 0; i < scene->gas_count; i++) {
+        const struct kiln_gas_extent extent = kiln_gas_extent(scene, i);
+        const struct kiln_gas_place cells = extent.cells;
+        const uint64_t bytes = kiln_volume_field_bytes(&scene->gas[i].shape, extent.bricks) +
+                               kiln_volume_slices_bytes(cells) + kiln_volume_glow_bytes(cells);
+        largest = scene->gas[i].enabled && bytes > largest ? bytes : largest;
+    }
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_GAS, 1, largest);
+    if (scene->backdrop.object_count > 0)
+        kiln_sun_shade_footprint(scene, footprint);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, 12 * sizeof(float));
+}
+
+void kiln_volume_destroy(struct kiln_volume_stage **stage)
+{
+    struct kiln_volume_stage *s = *stage;
+    if (!s)
+        return;
+    kiln_volume_field_finish(&s->field);
+    kiln_volume_glow_finish(&s->glow);
+    kiln_volume_tiles_finish(&s->tiles);
+    kiln_sun_shade_destroy(&s->shade);
+    free(s->slices.floats);
+    free(s->planes.smoke);
+    free(s->planes.flame);
+    free(s->planes.glow);
+    free(s->touched);
+    free(s);
+    *stage = NULL;
+}
+
+/* ---- light ----------------------------------------------------------------------------------- */
+
+/* Holds what a domain is drawn with: numbers of its look at the moment, and its place. */
+struct domain {
+    struct kiln_volume_march march;
+    struct kiln_volume_light light;
+    struct kiln_volume_frame frame;
+    float sky[3]; /* radiance of the whole sky, averaged */
+    bool glows;   /* flames light the smoke */
+    const struct kiln_draw_light *lamps;
+    uint32_t lamp_count;
+};
+
+struct finish_job {
+    struct kiln_volume_stage *stage;
+    const struct domain *domain;
+    const struct kiln_volume_light_rows *rows;
+    bool lit; /* by flames */
+};
+
+/* Dims the sun in the cells of a block that objects hide it from. A cell counts as a ball. */
+static void shade_block(const struct kiln_volume_stage *s, const struct kiln_volume_frame *frame,
+                        struct kiln_gas_place brick, float *block)
+{
+    struct kiln_appearance_block balls;
+    alignas(64) float visible[KILN_LANES];
+    float *const places[3] = {balls.position.x, balls.position.y, balls.position.z};
+    for (int32_t first = 0; first < GAS_BRICK_CELLS; first += KILN_LANES) {
+        for (int32_t i = 0; i < KILN_LANES; i++) {
+            const int32_t n = first + i;
+            const float x = (float)(brick.x * GAS_BRICK + n % GAS_BRICK) + 0.5f;
+            const float y = (float)(brick.y * GAS_BRICK + n / GAS_BRICK % GAS_BRICK) + 0.5f;
+            const float z = (float)(brick.z * GAS_BRICK + n / (GAS_BRICK * GAS_BRICK)) + 0.5f;
+            for (int c = 0; c < 3; c++)
+                places[c][i] = frame->corner[c] + frame->edges[0][c] * x + frame->edges[1][c] * y +
+                               frame->edges[2][c] * z;
+            balls.radius[i] = 0.5f * frame->cell_m;
+            balls.alive[i] = 1;
+        }
+        kiln_sun_shade_balls(s->shade, s->simd, &balls, visible);
+        for (int32_t i = 0; i < KILN_LANES; i++) {
+            const int32_t n = first + i;
+            float *cell = kiln_volume_cell(block, n % GAS_BRICK, n / GAS_BRICK % GAS_BRICK,
+                                           n / (GAS_BRICK * GAS_BRICK));
+            cell[VOLUME_SUN] *= visible[i];
+            cell[VOLUME_SCATTERED] *= visible[i];
+        }
+    }
+}
+
+/* Turns the part of the sky's light, and the light of flames, to the radiance that reaches each
+ * cell from all sides. */
+static void finish_blocks(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct finish_job *job = context;
+    const struct kiln_volume_field *field = &job->stage->field;
+    const struct kiln_volume_glow *glow = &job->stage->glow;
+    const float *sky = job->domain->sky, intensity = job->domain->march.intensity;
+    for (size_t i = begin; i < end; i++) {
+        const struct kiln_gas_place brick = kiln_volume_place(field, (uint32_t)i);
+        float *block = kiln_volume_block(field, (uint32_t)i);
+        for (int32_t k = 0; k < GAS_BRICK_CELLS; k++) {
+            const int32_t x = k % GAS_BRICK, y = k / GAS_BRICK % GAS_BRICK;
+            const int32_t z = k / (GAS_BRICK * GAS_BRICK);
+            float *cell = kiln_volume_cell(block, x, y, z);
+            const float above = cell[VOLUME_RED];
+            float fire = 0.0f;
+            if (job->lit)
+                fire = intensity * kiln_volume_glow_at(glow, brick.x * GAS_BRICK + x,
+                                                       brick.y * GAS_BRICK + y,
+                                                       brick.z * GAS_BRICK + z);
+            for (int c = 0; c < 3; c++)
+                cell[VOLUME_RED + c] = above * sky[c] + fire * glow->color[c];
+        }
+        if (job->domain->lamp_count > 0)
+            job->rows->add_lamps(&job->domain->frame, brick, job->domain->lamps,
+                                 job->domain->lamp_count, block);
+        if (job->domain->light.sun && job->stage->shade)
+            shade_block(job->stage, &job->domain->frame, brick, block);
+    }
+}
+
+static bool light_domain(struct kiln_volume_stage *s, const struct domain *domain,
+                         const struct kiln_gas *gas, struct kiln_error *error)
+{
+    const struct kiln_volume_march *m = &domain->march;
+    struct finish_job job = {
+        .stage = s, .domain = domain, .rows = KILN_SIMD_PICK(kiln_volume_light_rows, s->simd)};
+    const float edge =
+        0.03f / 3.0f * (float)(gas->shape.cells.x + gas->shape.cells.y + gas->shape.cells.z);
+    struct kiln_volume_fire fire = {.colors = m->colors,
+                                    .thickness = domain->light.thickness,
+                                    .cell_m = m->cell_m,
+                                    .reach_m = edge * m->cell_m};
+    kiln_gas_closed(gas, fire.closed);
+    if (!kiln_volume_light_run(&s->slices, &s->field, &domain->light, job.rows, s->threads, error))
+        return false;
+    if (domain->glows && m->intensity > 0.0f &&
+        !kiln_volume_glow_run(&s->glow, &s->field, &fire,
+                              KILN_SIMD_PICK(kiln_volume_glow_rows, s->simd), s->threads, &job.lit,
+                              error))
+        return false;
+    kiln_threads_for(s->threads, s->field.count, 8, finish_blocks, &job);
+    kiln_volume_field_join(&s->field, s->threads);
+    return true;
+}
+
+/* ---- domains --------------------------------------------------------------------------------- */
+
+/* Sets how rays of the view run through the window of a domain. */
+static void place_rays(const struct kiln_scene *scene, const struct kiln_gas_domain *d,
+                       const struct kiln_gas *gas, const struct kiln_moment *moment,
+                       struct domain *to)
+{
+    struct kiln_volume_march *m = &to->march;
+    const struct kiln_view *view = &moment->view;
+    const float time_s = view->clock.x, cell = gas->shape.cell;
+    const float3 first = {gas->shape.corner.x + cell * (float)gas->at.x,
+                          gas->shape.corner.y + cell * (float)gas->at.y,
+                          gas->shape.corner.z + cell * (float)gas->at.z};
+    const float3 corner = kiln_attached_point(scene, &d->attach, first, time_s);
+    float axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    kiln_attached_rotation(scene, &d->attach, axes, time_s);
+    m->cell_m = kiln_attached_length(scene, &d->attach, cell, time_s);
+    to->frame =
+        (struct kiln_volume_frame){.corner = {corner.x, corner.y, corner.z}, .cell_m = m->cell_m};
+    const float a_metre = 1.0f / m->cell_m;
+    const float4 *rows = view->world_to_view;
+    const float3 eye = {view->eye.x - corner.x, view->eye.y - corner.y, view->eye.z - corner.z};
+    const float3 sun = moment->sun.towards;
+    for (int i = 0; i < 3; i++) {
+        const float3 axis = {axes[i][0], axes[i][1], axes[i][2]};
+        for (int c = 0; c < 3; c++) {
+            to->frame.edges[i][c] = m->cell_m * axes[i][c];
+            m->world[c][i] = axes[i][c];
+        }
+        m->eye[i] = a_metre * float3_dot(axis, eye);
+        m->right[i] = a_metre * (axis.x * rows[0].x + axis.y * rows[0].y + axis.z * rows[0].z);
+        m->up[i] = a_metre * (axis.x * rows[1].x + axis.y * rows[1].y + axis.z * rows[1].z);
+        m->forward[i] = -a_metre * (axis.x * rows[2].x + axis.y * rows[2].y + axis.z * rows[2].z);
+        m->to_sun[i] = to->light.to_sun[i] = float3_dot(axis, sun);
+    }
+    m->near_m = view->eye.w;
+    m->pixel_x = 2.0f * view->frustum.x / view->frustum.z;
+    m->pixel_y = 2.0f * view->frustum.y / view->frustum.w;
+    m->middle_x = view->principal.x;
+    m->middle_y = view->principal.y;
+}
+
+static void set3(float to[3], float x, float y, float z)
+{
+    to[0] = x;
+    to[1] = y;
+    to[2] = z;
+}
+
+/* Sets the noise that is drawn where the gas came from. The weight of a group is 0 when its ways
+ * begin anew. Weights keep the noise's variance. */
+static void set_detail(const struct kiln_scene *scene, const struct kiln_gas_domain *d,
+                       const struct kiln_moment *moment, struct kiln_volume_march *m)
+{
+    m->step = d->detail > 2 ? 0.5f * VOLUME_STEP : VOLUME_STEP;
+    m->octaves = d->detail > 2 ? 2 : d->detail > 1 ? 1 : 0;
+    const float phase = kiln_gas_way_phase(0, kiln_scene_time(scene, moment->view.clock_step.x));
+    const float second = fabsf(2.0f * phase - 1.0f), first = 1.0f - second;
+    const float variance = sqrtf(first * first + second * second);
+    m->weights[0] = first / variance;
+    m->weights[1] = second / variance;
+}
+
+/* Sets the numbers of a domain's look, and its light. */
+static void set_look(struct kiln_volume_stage *s, uint32_t number, float time_s,
+                     const struct kiln_draw_backdrop *b, struct domain *to)
+{
+    const struct kiln_scene *scene = s->scene;
+    const struct kiln_gas_look *look = &scene->gas[number].look;
+    struct kiln_volume_march *m = &to->march;
+    const float3 albedo = kiln_scene_value3(scene, &look->albedo, time_s);
+    set3(m->albedo, albedo.x, albedo.y, albedo.z);
+    m->extinction = kiln_scene_value(scene, &look->extinction, time_s);
+    m->absorption = kiln_scene_value(scene, &look->absorption, time_s);
+    m->intensity = kiln_scene_value(scene, &look->intensity, time_s);
+    m->bloom = kiln_scene_value(scene, &look->bloom, time_s);
+    m->scattering = exact_clamp(kiln_scene_value(scene, &look->scattering, time_s), -0.95f, 0.95f);
+    kiln_flame_colors_fill(&s->colors[number], &s->observer,
+                           kiln_scene_value(scene, &look->kelvin[0], time_s),
+                           kiln_scene_value(scene, &look->kelvin[1], time_s));
+    m->colors = &s->colors[number];
+    m->field = &s->field;
+    m->width = s->width;
+    m->height = s->height;
+    m->planes = s->planes;
+    m->haze = b->floor_params.z > 0.0f && b->counts.z == 0 ? b : NULL;
+    to->light.thickness = m->extinction * m->cell_m;
+    to->glows = look->light;
+    if (!look->lights)
+        return;
+    to->lamps = b->lights;
+    to->lamp_count = b->counts.y;
+    const float part = 1.0f / 3.14159265f; /* of the irradiance: a white surface's radiance */
+    set3(m->sun, part * b->sun_color.x, part * b->sun_color.y, part * b->sun_color.z);
+    set3(to->sky, 0.5f * (b->sky_top.x + b->sky_horizon.x),
+         0.5f * (b->sky_top.y + b->sky_horizon.y), 0.5f * (b->sky_top.z + b->sky_horizon.z));
+    to->light.sun = m->sun[0] > 0.0f || m->sun[1] > 0.0f || m->sun[2] > 0.0f;
+    to->light.sky = to->sky[0] > 0.0f || to->sky[1] > 0.0f || to->sky[2] > 0.0f;
+}
+
+struct march_job {
+    struct kiln_volume_stage *stage;
+    const struct kiln_volume_march *march;
+    const struct kiln_volume_march_rows *rows;
+};
+
+/* Draws the tiles of a row of tiles. */
+static void march_tiles(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct march_job *job = context;
+    const uint32_t across = tiles_along(job->stage->width);
+    for (size_t row = begin; row < end; row++)
+        for (uint32_t x = 0; x < across; x++) {
+            const size_t number = row * across + x;
+            const struct kiln_tile_depths depths = job->stage->tiles.depths[number];
+            const struct kiln_volume_tile tile = {x * VOLUME_TILE, (uint32_t)row * VOLUME_TILE,
+                                                  depths.near_m, depths.far_m};
+            if (!(depths.near_m < depths.far_m))
+                continue;
+            job->rows->draw(job->march, &tile);
+            job->stage->touched[number] = 1;
+        }
+}
+
+/* Copies and lights the gas of a domain. */
+static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
+                       const struct kiln_gas *gas, struct kiln_error *error)
+{
+    const struct kiln_volume_march *m = &domain->march;
+    const float least = 2e-4f / (float)GAS_BRICK; /* opacity, or radiance, of a cell */
+    const float smoke = domain->light.thickness, flame = exact_max(m->absorption, m->intensity);
+    const struct kiln_volume_seen seen = {.detail = m->octaves > 0 && gas->shape.detailed,
+                                          .least_smoke = least / exact_max(smoke, 1e-30f),
+                                          .least_flame =
+                                              least / exact_max(flame * m->cell_m, 1e-30f),
+                                          .albedo = {m->albedo[0], m->albedo[1], m->albedo[2]}};
+    s->lit = false;
+    if (!kiln_volume_field_fill(&s->field, gas, &seen, s->threads, error) ||
+        (s->field.count > 0 && !light_domain(s, domain, gas, error)))
+        return false;
+    s->lit = true;
+    return true;
+}
+
+/* Draws a domain. kept: whether the field may still be that of this domain. */
+static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_draw *draw,
+                        uint32_t number, const float *depth, bool kept, struct kiln_error *error)
+{
+    const struct kiln_gas *gas = &draw->pool->gas[number];
+    struct domain domain = {.march.depth = depth};
+    place_rays(s->scene, &s->scene->gas[number], gas, draw->moment, &domain);
+    set_look(s, number, draw->moment->view.clock.x, draw->backdrop, &domain);
+    set_detail(s->scene, &s->scene->gas[number], draw->moment, &domain.march);
+    if (!(kept && s->lit) && !fill_field(s, &domain, gas, error))
+        return false;
+    if (s->field.count == 0)
+        return true;
+    struct march_job job = {s, &domain.march, KILN_SIMD_PICK(kiln_volume_march_rows, s->simd)};
+    return kiln_volume_tiles_find(&s->tiles, &domain.march, s->threads, error) &&
+           kiln_threads_try(s->threads, tiles_along(s->height), 1, march_tiles, &job, error);
+}
+
+/* Lists the domains that are drawn, from the farthest to the nearest by their middles. */
+static uint32_t order_domains(const struct kiln_scene *scene, const struct kiln_moment *moment,
+                              const struct kiln_pool *pool, uint32_t order[KILN_MAX_GAS])
+{
+    float distance[KILN_MAX_GAS];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->gas_count && i < pool->gas_count; i++) {
+        const struct kiln_gas *gas = &pool->gas[i];
+        if (!scene->gas[i].enabled || gas->cells.x == 0)
+            continue;
+        const struct kiln_gas_shape *shape = &gas->shape;
+        const float half = 0.5f * shape->cell;
+        const float3 middle = {shape->corner.x + half * (float)shape->cells.x,
+                               shape->corner.y + half * (float)shape->cells.y,
+                               shape->corner.z + half * (float)shape->cells.z};
+        const float4 eye = moment->view.eye;
+        const float3 at =
+            kiln_attached_point(scene, &scene->gas[i].attach, middle, moment->view.clock.x);
+        const float3 way = {at.x - eye.x, at.y - eye.y, at.z - eye.z};
+        const float square = float3_dot(way, way);
+        uint32_t place = count++;
+        for (; place > 0 && distance[place - 1] < square; place--) {
+            distance[place] = distance[place - 1];
+            order[place] = order[place - 1];
+        }
+        distance[place] = square;
+        order[place] = i;
+    }
+    return count;
+}
+
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+static void clear_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_volume_stage *s = context;
+    const size_t row = 4 * (size_t)s->width, floats = (end - begin) * row;
+    memset(s->planes.smoke + begin * row, 0, floats * sizeof(float));
+    memset(s->planes.flame + begin * row, 0, floats * sizeof(float));
+    if (s->planes.glow)
+        memset(s->planes.glow + begin * row, 0, floats * sizeof(float));
+}
+
+bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
+                      struct kiln_error *error)
+{
+    uint32_t order[KILN_MAX_GAS];
+    const struct kiln_moment *moment = draw->moment;
+    const uint32_t count = draw->pool ? order_domains(stage->scene, moment, draw->pool, order) : 0;
+    memset(stage->touched, 0, tile_count(stage->scene));
+    if (count == 0)
+        return true;
+    if (stage->shade)
+        kiln_sun_shade_place(stage->shade, moment);
+    const float *depths = kiln_image_host(draw->depth, KILN_READ, error);
+    if (!depths || !kiln_threads_try(stage->threads, stage->height, 64, clear_rows, stage, error))
+        return false;
+    const bool kept = draw->same && count == 1;
+    for (uint32_t i = 0; i < count; i++)
+        if (!draw_domain(stage, draw, order[i], depths, kept, error))
+            return false;
+    return true;
+}
+
+struct put_job {
+    const struct kiln_volume_stage *stage;
+    enum kiln_volume_light_of light;
+    float *to;
+    bool keep;
+};
+
+/* Calls a function for each pixel of row `y` in tiles with gas. */
+static void put_row(const struct put_job *job, uint32_t y,
+                    void (*put)(const struct put_job *job, size_t first))
+{
+    const struct kiln_volume_stage *s = job->stage;
+    const uint8_t *touched = s->touched + (size_t)(y / VOLUME_TILE) * tiles_along(s->width);
+    for (uint32_t x = 0; x < s->width; x++)
+        if (touched[x / VOLUME_TILE])
+            put(job, 4 * ((size_t)y * s->width + x));
+}
+
+static void put_under(const struct put_job *job, size_t first)
+{
+    const float *smoke = job->stage->planes.smoke + first;
+    const float *flame = job->stage->planes.flame + first;
+    float *to = job->to + first;
+    const float left = 1.0f - to[3];
+    for (int c = 0; c < 3 && job->light == KILN_VOLUME_FLAME; c++)
+        to[c] += flame[c];
+    for (int c = 0; c < 3 && job->light != KILN_VOLUME_FLAME; c++)
+        to[c] += left * (job->light == KILN_VOLUME_ALL ? smoke[c] + flame[c] : smoke[c]);
+    if (job->light != KILN_VOLUME_FLAME)
+        to[3] += left * smoke[3];
+}
+
+static void put_glow(const struct put_job *job, size_t first)
+{
+    const float *glow = job->stage->planes.glow + first;
+    const float hidden = job->stage->planes.smoke[first + 3];
+    float *to = job->to + first;
+    for (int c = 0; c < 3; c++)
+        to[c] = glow[c] + (1.0f - hidden) * to[c];
+    to[3] = hidden + (1.0f - hidden) * to[3];
+}
+
+static void put_under_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    for (size_t y = begin; y < end; y++)
+        put_row(context, (uint32_t)y, put_under);
+}
+
+static void put_glow_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct put_job *job = context;
+    const size_t row = 4 * (size_t)job->stage->width;
+    for (size_t y = begin; y < end; y++) {
+        if (!job->keep)
+            memset(job->to + y * row, 0, row * sizeof *job->to);
+        put_row(job, (uint32_t)y, put_glow);
+    }
+}
+
+bool kiln_volume_add_glow(struct kiln_volume_stage *stage, struct kiln_image *bloom, bool keep,
+                          struct kiln_error *error)
+{
+    struct put_job job = {.stage = stage, .keep = keep};
+    job.to = kiln_image_host(bloom, keep ? KILN_READ_WRITE : KILN_OVERWRITE, error);
+    return job.to &&
+           kiln_threads_try(stage->threads, stage->height, 16, put_glow_rows, &job, error);
+}
+
+bool kiln_volume_put_under(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,
+                           struct kiln_image *particles, struct kiln_error *error)
+{
+    struct put_job job = {.stage = stage, .light = light};
+    job.to = kiln_image_host(particles, KILN_READ_WRITE, error);
+    return job.to &&
+           kiln_threads_try(stage->threads, stage->height, 16, put_under_rows, &job, error);
+}

@@ -1,0 +1,59 @@
+/* Stage 4c draws gas: smoke and fire of the scene's domains, by a march of rays (Heinz 2019,
+ * 2.3.2). It always runs on the host, in vectors, from the states of the domains. Its pictures are
+ * the same bytes on every machine.
+ *
+ * Gas hides the backdrop, objects and solid particles behind it, and lies behind all other
+ * particles. */
+#ifndef KILN_DRAW_VOLUME_VOLUME_H
+#define KILN_DRAW_VOLUME_VOLUME_H
+
+#include "base/footprint.h"
+#include "base/thread.h"
+#include "draw/moment/moment.h"
+#include "gpu/image.h"
+
+struct kiln_volume_stage;
+
+/* Names the light of gas that an image gets. */
+enum kiln_volume_light_of {
+    KILN_VOLUME_ALL,   /* smoke and flames */
+    KILN_VOLUME_SMOKE, /* what smoke scatters, and what gas hides */
+    KILN_VOLUME_FLAME, /* the light of flames alone, which hides nothing */
+};
+
+/* Returns whether the scene has gas that is drawn. */
+bool kiln_volume_exists(const struct kiln_scene *scene);
+
+/* Creates the stage; NULL with an error. Moment and threads must outlive it. glow: whether
+ * kiln_volume_add_glow will be called. */
+struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, bool glow,
+                                             struct kiln_threads *threads,
+                                             struct kiln_error *error);
+
+/* Adds the memory of the stage. Adds nothing for a scene without gas. */
+void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
+void kiln_volume_destroy(struct kiln_volume_stage **stage);
+
+/* What a call of kiln_volume_draw draws. */
+struct kiln_volume_draw {
+    const struct kiln_moment *moment;
+    const struct kiln_pool *pool;              /* has the gas; not the moment's pool */
+    const struct kiln_draw_backdrop *backdrop; /* the sun, the sky and lamps */
+    struct kiln_image *depth;                  /* of the scene, m */
+    bool same; /* true: nothing but the view is other than in the last call */
+};
+
+/* Draws gas to planes that the stage keeps. */
+bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
+                      struct kiln_error *error);
+
+/* Draws the glow of flames over an image: the gas dims the glow behind it. keep: false if nothing
+ * was drawn to the image before. */
+bool kiln_volume_add_glow(struct kiln_volume_stage *stage, struct kiln_image *bloom, bool keep,
+                          struct kiln_error *error);
+
+/* Puts gas under an image of particles, premultiplied. */
+bool kiln_volume_put_under(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,
+                           struct kiln_image *particles, struct kiln_error *error);
+
+#endif

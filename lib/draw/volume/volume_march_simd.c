@@ -1,0 +1,442 @@
+/* This file marches rays through gas, eight side by side. A ray is sampled at fixed steps from the
+ * eye, without jitter, so smoke shows neither noise nor shells that move with its window. The light
+ * of a step is the integral over a segment of even gas; segments end where the scene does.
+ *
+ * A step in which no ray meets a block adds nothing to any of them, so leaving it out changes no
+ * bit. The eight rays are the same at each level of vectors. */
+#include "base/eight.h"
+#include "draw/vector/haze_color.h"
+#include "draw/volume/volume_march.h"
+#include "draw/volume/volume_noise.h"
+
+/* What remains of the light behind gas counts as nothing below this part. */
+#define OPAQUE_BELOW 0.002f
+
+/* How much noise changes the amount of gas: the deviation of its logarithm, of one octave. */
+#define DETAIL 0.6f
+
+/* Holds eight rays. */
+struct packet {
+    struct eight way[3];     /* unit, in the window */
+    struct eight inverse[3]; /* 1 / way */
+    struct eight from, to;   /* where a ray enters the window and where it ends; to 0: nowhere */
+    struct eight metre;      /* cells along a ray for a metre of depth */
+    struct eight first,
+        wide;           /* phase functions of the sun's light, scattered once and more often */
+    struct eight clear; /* what gas leaves of the light behind it */
+    struct eight smoke[3], flame[3];
+    struct eight weight, far; /* of what is seen: its amount, and that times its distance, cells */
+};
+
+/* Returns the phase function of Henyey and Greenstein in parts of an even one. */
+SIMD vf henyey_greenstein(vf cosine, float g)
+{
+    const vf d = 1.0f + g * g - 2.0f * g * cosine;
+    return (1.0f - g * g) / (d * vf_sqrt(d));
+}
+
+SIMD vf phase_of(vf cosine, float g)
+{
+    return 0.8f * henyey_greenstein(cosine, g) + 0.2f * henyey_greenstein(cosine, -0.3f * g);
+}
+
+/* Sets up the rays of eight pixels. Returns whether one of them meets the window. */
+SIMD bool make_packet(const struct kiln_volume_march *m, uint32_t x, uint32_t y, struct packet *p)
+{
+    const float count[3] = {(float)m->field->cells.x, (float)m->field->cells.y,
+                            (float)m->field->cells.z};
+    const float down = ((float)y + 0.5f - m->middle_y) * m->pixel_y;
+    bool some = false;
+    memset(p, 0, sizeof *p);
+    EIGHT_EACH(k)
+    {
+        const vf pixel = vf_count() + (float)(x + (uint32_t)(k * LANES));
+        const vf aside = (pixel + 0.5f - m->middle_x) * m->pixel_x;
+        const vf inside = vf_where(pixel < (float)m->width, vf_all(1.0f));
+        vf way[3], square = vf_all(0.0f), cosine = vf_all(0.0f);
+        float depth[LANES];
+        for (uint32_t i = 0; i < LANES; i++) {
+            const uint32_t column = x + (uint32_t)(k * LANES) + i;
+            depth[i] = column < m->width ? m->depth[(size_t)y * m->width + column] : 0.0f;
+        }
+        for (int i = 0; i < 3; i++) {
+            way[i] = m->right[i] * aside + (m->forward[i] - m->up[i] * down);
+            square += way[i] * way[i];
+        }
+        const vf length = vf_sqrt(square); /* cells a metre of depth */
+        vf from = length * m->near_m, to = length * vf_load(depth) * inside;
+        for (int i = 0; i < 3; i++) {
+            vf along = way[i] / length;
+            along = vf_select(vf_abs(along) < 1e-6f, vf_all(1e-6f), along);
+            const vf inverse = 1.0f / along;
+            const vf a = -m->eye[i] * inverse, b = (count[i] - m->eye[i]) * inverse;
+            from = vf_max(from, vf_min(a, b));
+            to = vf_min(to, vf_max(a, b));
+            cosine += along * m->to_sun[i];
+            p->way[i].part[k] = along;
+            p->inverse[i].part[k] = inverse;
+        }
+        const vi meets = from < to;
+        p->from.part[k] = from;
+        p->to.part[k] = vf_where(meets, to);
+        p->metre.part[k] = length;
+        p->first.part[k] = phase_of(cosine, m->scattering);
+        p->wide.part[k] = phase_of(cosine, 0.5f * m->scattering);
+        p->clear.part[k] = vf_all(1.0f);
+        some |= any(meets);
+    }
+    return some;
+}
+
+/* Returns the least of eight numbers. */
+SIMD float least_of(struct eight x)
+{
+    float lanes[8];
+    eight_store(lanes, x);
+    float least = lanes[0];
+    for (int i = 1; i < 8; i++)
+        least = lanes[i] < least ? lanes[i] : least;
+    return least;
+}
+
+/* Returns the number of the first step of a packet in a tile, and writes where its last one is. */
+SIMD float first_step(const struct kiln_volume_march *m, const struct packet *p,
+                      const struct kiln_volume_tile *tile, float *last)
+{
+    struct eight from, to;
+    EIGHT_EACH(k)
+    {
+        const vi meets = p->from.part[k] < p->to.part[k];
+        const vf near = vf_max(p->from.part[k], p->metre.part[k] * tile->near_m);
+        from.part[k] = vf_select(meets, near, vf_all(1e9f));
+        to.part[k] = -p->metre.part[k] * tile->far_m;
+    }
+    *last = -least_of(to);
+    return floorf(least_of(from) * (1.0f / m->step));
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+/* Holds the places of a step's samples, of each ray. */
+struct places {
+    _Alignas(32) float part[3][8]; /* of the way to the next cell */
+    _Alignas(32) int32_t block[8]; /* -1: none */
+    _Alignas(32) int32_t cell[8];  /* floats from the block's first cell */
+    struct eight at[3];            /* in the window, cells, from the middle of its first cell */
+    struct eight middle;           /* of the segments: from the eye, cells */
+    struct eight length;           /* of the segments, cells; 0: none */
+    bool some;                     /* a ray has a block */
+    float skip;                    /* where else the next ray meets another brick */
+};
+
+/* Finds the samples of step number `step`. */
+SIMD void find_places(const struct kiln_volume_march *m, const struct packet *p, float step,
+                      struct places *at)
+{
+    const struct kiln_volume_field *field = m->field;
+    const int32_t count[3] = {field->cells.x, field->cells.y, field->cells.z};
+    const int32_t stride[3] = {1, field->bricks.x, field->bricks.x * field->bricks.y};
+    const int32_t floats[3] = {VOLUME_CELL, VOLUME_ROW, VOLUME_PLANE};
+    struct eight skip;
+    at->some = false;
+    EIGHT_EACH(k)
+    {
+        const vf begin = vf_max(vf_all(step * m->step), p->from.part[k]);
+        const vf end = vf_min(vf_all((step + 1.0f) * m->step), p->to.part[k]);
+        const vi meets = begin < end;
+        const vf middle = 0.5f * (begin + end);
+        at->middle.part[k] = middle;
+        vi number = vi_all(0), in = vi_all(0);
+        vf leaves = vf_all(1e9f);
+        for (int i = 0; i < 3; i++) {
+            vf place = m->eye[i] + p->way[i].part[k] * middle - 0.5f;
+            place = vf_clamp(place, 0.0f, (float)(count[i] - 1));
+            const vi cell = vi_of(place), brick = cell >> 3;
+            at->at[i].part[k] = place;
+            vf_store(at->part[i] + (ptrdiff_t)k * LANES, place - vf_of(cell));
+            number += brick * stride[i];
+            in += (cell & (GAS_BRICK - 1)) * floats[i];
+            const vf side = vf_of((brick - (p->way[i].part[k] > 0.0f)) * GAS_BRICK) + 0.5f;
+            leaves = vf_min(leaves, (side - m->eye[i]) * p->inverse[i].part[k]);
+        }
+        const vi block = vi_gather(field->block_of, number & meets) | ~meets;
+        const vi begun = p->from.part[k] < (step + 1.0f) * m->step;
+        const vi over = p->to.part[k] <= (step + 1.0f) * m->step;
+        vf next = vf_select(begun, leaves, p->from.part[k]);
+        next = vf_select(over, vf_all(1e9f), next);
+        skip.part[k] = next;
+        vf_store((float *)(void *)(at->block + (ptrdiff_t)k * LANES), (vf)block);
+        vf_store((float *)(void *)(at->cell + (ptrdiff_t)k * LANES), (vf)in);
+        at->length.part[k] = vf_where(block >= 0, end - begin);
+        at->some |= any(block >= 0);
+    }
+    at->skip = least_of(skip);
+}
+
+SIMD struct eight eight_between(struct eight a, struct eight b, float part)
+{
+    EIGHT_EACH(k)
+    a.part[k] += (b.part[k] - a.part[k]) * part;
+    return a;
+}
+
+/* Interpolates the floats of a cell between eight cells. */
+SIMD struct eight sample_block(const float *at, float x, float y, float z)
+{
+    const float *above = at + VOLUME_PLANE;
+#define ALONG(p) eight_between(eight_load(p), eight_load((p) + VOLUME_CELL), x)
+    const struct eight low = eight_between(ALONG(at), ALONG(at + VOLUME_ROW), y);
+    const struct eight high = eight_between(ALONG(above), ALONG(above + VOLUME_ROW), y);
+#undef ALONG
+    return eight_between(low, high, z);
+}
+
+/* Samples the floats of cells for each ray; zeros where a ray has no block. blocks: of the field.
+ */
+SIMD void sample_floats(const float *blocks, const struct places *at,
+                        struct eight values[VOLUME_CELL])
+{
+    _Alignas(32) float cells[8 * VOLUME_CELL];
+    for (ptrdiff_t i = 0; i < 8; i++) {
+        struct eight cell = {{{0}}};
+        if (at->block[i] >= 0)
+            cell = sample_block(blocks + (size_t)at->block[i] * VOLUME_BLOCK + at->cell[i],
+                                at->part[0][i], at->part[1][i], at->part[2][i]);
+        eight_store(cells + i * VOLUME_CELL, cell);
+    }
+    eight_columns(cells, values);
+}
+
+/* Samples what the smoke of coloured gas scatters: rgb. */
+SIMD_ONCE void sample_tints(const struct kiln_volume_field *field, const struct places *at,
+                            struct eight tints[3])
+{
+    enum { ROW = VOLUME_ROW / VOLUME_CELL * VOLUME_TINT };
+    enum { PLANE = VOLUME_PLANE / VOLUME_CELL * VOLUME_TINT };
+    _Alignas(32) float rgb[3][8];
+    memset(rgb, 0, sizeof rgb);
+    for (int i = 0; i < 8; i++) {
+        const float x = at->part[0][i], y = at->part[1][i], z = at->part[2][i];
+        if (at->block[i] < 0)
+            continue;
+        const ptrdiff_t number = at->cell[i] / VOLUME_CELL;
+        const float *cell =
+            field->tints + (size_t)at->block[i] * VOLUME_TINTS + number * VOLUME_TINT;
+        for (int c = 0; c < 3; c++, cell++) {
+#define ALONG(p) ((p)[0] + ((p)[VOLUME_TINT] - (p)[0]) * x)
+            const float a = ALONG(cell), b = ALONG(cell + ROW);
+            const float d = ALONG(cell + PLANE), e = ALONG(cell + PLANE + ROW);
+#undef ALONG
+            const float low = a + (b - a) * y, high = d + (e - d) * y;
+            rgb[c][i] = low + (high - low) * z;
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        tints[c] = eight_load(rgb[c]);
+}
+
+/* Returns the factor by which noise where the gas came from changes its amount. It is the
+ * exponential of noise of a known variance, so the mean amount stays. */
+SIMD_ONCE void find_detail(const struct kiln_volume_march *m, const struct places *at,
+                           struct eight *factor)
+{
+    const struct kiln_gas *gas = m->field->gas;
+    const int32_t corner[3] = {gas->at.x, gas->at.y, gas->at.z};
+    struct eight ways[VOLUME_CELL];
+    sample_floats(m->field->ways, at, ways);
+    EIGHT_EACH(k)
+    {
+        vf sum = vf_all(0.0f);
+        for (uint32_t group = 0; group < 2; group++) {
+            struct vf3 place;
+            vf *const axes[3] = {&place.x, &place.y, &place.z};
+            for (int i = 0; i < 3; i++) {
+                const vf way = ways[4 * group + (uint32_t)i].part[k] * (1.0f / gas->shape.cell);
+                *axes[i] =
+                    (at->at[i].part[k] + (float)corner[i] + way) * (1.0f / VOLUME_NOISE_CELL) +
+                    (group == 0 ? 0.0f : 511.5f);
+            }
+            float size = m->weights[group];
+            for (uint32_t octave = 0; octave < m->octaves; octave++) {
+                sum += size * noise_at(place);
+                size *= 0.6f;
+                place = vf3_scale(place, vf_all(2.0f));
+            }
+        }
+        factor->part[k] =
+            vf_exp(DETAIL * sum - 0.5f * DETAIL * DETAIL * (m->octaves > 1 ? 1.36f : 1.0f));
+    }
+}
+
+/* Changes the sampled gas by the noise where it came from; flames by less, as their light is not
+ * scattered. tints: NULL without colours. */
+SIMD void add_detail(const struct kiln_volume_march *m, const struct places *at,
+                     struct eight values[VOLUME_CELL], struct eight *tints)
+{
+    struct eight factor;
+    find_detail(m, at, &factor);
+    EIGHT_EACH(k)
+    {
+        values[VOLUME_SMOKE].part[k] *= factor.part[k];
+        values[VOLUME_FLAME].part[k] *= vf_sqrt(factor.part[k]);
+        for (int i = 0; i < 3 && tints; i++)
+            tints[i].part[k] *= factor.part[k];
+    }
+}
+
+/* ---- light ----------------------------------------------------------------------------------- */
+
+/* Returns the light of flames by their temperature. */
+SIMD struct columns flame_light(const struct kiln_flame_colors *colors, vf temperature)
+{
+    const vf place = vf_clamp(temperature * ((float)KILN_FLAME_COLORS / KILN_FLAME_HOTTEST), 0.0f,
+                              (float)KILN_FLAME_COLORS - 0.001f);
+    const vi low = vi_of(place);
+    const struct lane_offsets at = lane_offsets_of(low * 4);
+    vf part[4];
+    vf_spread_fours(place - vf_of(low), part);
+    return columns_load_lerp(&colors->rgb[0].x, &at, part);
+}
+
+/* Adds the light of a step, and dims what is behind it. tints: NULL without colours. */
+SIMD void shade(const struct kiln_volume_march *m, struct packet *p, const struct places *at,
+                const struct eight values[VOLUME_CELL], const struct eight *tints)
+{
+    EIGHT_EACH(k)
+    {
+        const vf zero = vf_all(0.0f);
+        const vf smoke = vf_max(values[VOLUME_SMOKE].part[k], zero) * m->extinction;
+        const vf flame = vf_max(values[VOLUME_FLAME].part[k], zero);
+        const vf extinction = smoke + flame * m->absorption;
+        const vf length = at->length.part[k] * m->cell_m, depth = extinction * length;
+        const vf left = vf_exp(-depth);
+        const vf thick = (1.0f - left) / vf_max(extinction, vf_all(1e-20f));
+        const vf thin = length * (1.0f - 0.5f * depth);
+        const vf seen = p->clear.part[k] * vf_select(depth > 1e-3f, thick, thin);
+        const vf sun = values[VOLUME_SUN].part[k] * p->first.part[k] +
+                       values[VOLUME_SCATTERED].part[k] * p->wide.part[k];
+        for (int i = 0; i < 3; i++) {
+            const vf scatters = tints ? tints[i].part[k] * m->extinction : smoke * m->albedo[i];
+            p->smoke[i].part[k] +=
+                seen * scatters * (sun * m->sun[i] + values[VOLUME_RED + i].part[k]);
+        }
+        p->clear.part[k] *= left;
+        const vf amount = seen * (extinction + flame);
+        p->weight.part[k] += amount;
+        p->far.part[k] += amount * at->middle.part[k];
+        if (!any(flame > 0.0f))
+            continue;
+        const struct columns light = flame_light(m->colors, values[VOLUME_TEMPERATURE].part[k]);
+        const vf emitted = seen * flame * m->intensity;
+        for (int i = 0; i < 3; i++)
+            p->flame[i].part[k] += emitted * light.c[i];
+    }
+}
+
+/* Ends rays that gas hides what is behind from. Returns whether any ray goes on after a step. */
+SIMD bool end_rays(const struct kiln_volume_march *m, struct packet *p, float step)
+{
+    bool some = false;
+    EIGHT_EACH(k)
+    {
+        const vi opaque = p->clear.part[k] < OPAQUE_BELOW;
+        p->clear.part[k] = vf_select(opaque, vf_all(0.0f), p->clear.part[k]);
+        p->to.part[k] = vf_select(opaque, vf_all(0.0f), p->to.part[k]);
+        some |= any((p->to.part[k] > (step + 1.0f) * m->step) & (p->from.part[k] < p->to.part[k]));
+    }
+    return some;
+}
+
+/* Veils the gas of rays by the haze before it. All of it counts as far away as it is in the mean of
+ * what is seen. */
+SIMD_ONCE void veil(const struct kiln_volume_march *m, struct packet *p)
+{
+    EIGHT_EACH(k)
+    {
+        const vf weight = vf_max(p->weight.part[k], vf_all(1e-20f));
+        const vf distance = p->far.part[k] / weight * m->cell_m;
+        const vf clear = haze_clear(m->haze->floor_params.z, vf_all(1.0f), distance);
+        struct vf3 way;
+        vf *const axes[3] = {&way.x, &way.y, &way.z};
+        for (int i = 0; i < 3; i++)
+            *axes[i] = m->world[i][0] * p->way[0].part[k] + m->world[i][1] * p->way[1].part[k] +
+                       m->world[i][2] * p->way[2].part[k];
+        const struct vf3 color = haze_toward(m->haze, haze_level(way));
+        const vf hidden = (1.0f - p->clear.part[k]) * (1.0f - clear);
+        const vf added[3] = {color.x * hidden, color.y * hidden, color.z * hidden};
+        for (int i = 0; i < 3; i++) {
+            p->smoke[i].part[k] = p->smoke[i].part[k] * clear + added[i];
+            p->flame[i].part[k] *= clear;
+        }
+    }
+}
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+static void store_pixels(const struct kiln_volume_march *m, const struct packet *p, uint32_t x,
+                         uint32_t y)
+{
+    _Alignas(32) float clear[8], smoke[3][8], flame[3][8];
+    eight_store(clear, p->clear);
+    for (int i = 0; i < 3; i++) {
+        eight_store(smoke[i], p->smoke[i]);
+        eight_store(flame[i], p->flame[i]);
+    }
+    for (uint32_t k = 0; k < 8 && x + k < m->width; k++) {
+        const size_t at = 4 * ((size_t)y * m->planes.pitch + x + k);
+        float *to = m->planes.smoke + at, *fire = m->planes.flame + at;
+        float *glow = m->planes.glow ? m->planes.glow + at : NULL;
+        for (int i = 0; i < 3; i++) {
+            to[i] = smoke[i][k] + clear[k] * to[i];
+            fire[i] = flame[i][k] + clear[k] * fire[i];
+            if (glow)
+                glow[i] = m->bloom * flame[i][k] + clear[k] * glow[i];
+        }
+        to[3] = (1.0f - clear[k]) + clear[k] * to[3];
+    }
+}
+
+static void march_packet(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
+                         uint32_t x, uint32_t y)
+{
+    struct packet p;
+    if (!make_packet(m, x, y, &p))
+        return;
+    float last, step = first_step(m, &p, tile, &last);
+    const bool colored = m->field->gas->shape.colored;
+    const bool detail = m->octaves > 0 && m->field->gas->shape.detailed;
+    bool drawn = false, more = true;
+    while (more && step * m->step < last) {
+        struct places at;
+        find_places(m, &p, step, &at);
+        if (!at.some) {
+            if (at.skip >= 1e9f)
+                break;
+            const float next = floorf(at.skip * (1.0f / m->step) - 0.5f);
+            step = next > step + 1.0f ? next : step + 1.0f;
+            continue;
+        }
+        struct eight values[VOLUME_CELL], tints[3];
+        sample_floats(m->field->blocks, &at, values);
+        if (colored)
+            sample_tints(m->field, &at, tints);
+        if (detail)
+            add_detail(m, &at, values, colored ? tints : NULL);
+        shade(m, &p, &at, values, colored ? tints : NULL);
+        more = end_rays(m, &p, step);
+        drawn = true;
+        step += 1.0f;
+    }
+    if (drawn && m->haze)
+        veil(m, &p);
+    if (drawn)
+        store_pixels(m, &p, x, y);
+}
+
+static void draw(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile)
+{
+    for (uint32_t y = tile->y; y < tile->y + VOLUME_TILE && y < m->height; y++)
+        march_packet(m, tile, tile->x, y);
+}
+
+const struct kiln_volume_march_rows KILN_SIMD_NAME(kiln_volume_march_rows) = {.draw = draw};
