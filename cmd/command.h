@@ -17,11 +17,11 @@ struct command {
     int (*run)(const struct arguments *arguments); /* returns the exit code */
 };
 
-extern const struct command render_command, bake_command, plan_command, join_command,
-    encode_command, compare_command, test_command, test_approve_command, test_calibrate_command,
-    test_report_command, test_list_command, figure_command, figure_sheet_command,
-    figure_triptych_command, figure_strip_command, bench_command, check_command, devices_command,
-    new_command, params_command, help_command, complete_command;
+extern const struct command render_command, bake_command, export_command, plan_command,
+    join_command, encode_command, compare_command, test_command, test_approve_command,
+    test_calibrate_command, test_report_command, test_list_command, figure_command,
+    figure_sheet_command, figure_triptych_command, figure_strip_command, bench_command,
+    check_command, devices_command, new_command, params_command, help_command, complete_command;
 
 /* All commands but `complete`, in the order of the help; NULL ends the list. */
 extern const struct command *const commands[];

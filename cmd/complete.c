@@ -177,6 +177,19 @@ static void print_params(struct value *value)
         kiln_scene_visit_names(value->line->operand, "params", print_param, value, &error);
 }
 
+static void print_domain(void *user, const char *name)
+{
+    print_if_prefix(user, "word", name, "a domain of gas");
+}
+
+/* Prints the domains of gas of the scene. */
+static void print_domains(struct value *value)
+{
+    struct kiln_error error = {0};
+    if (value->line->operand)
+        kiln_scene_visit_names(value->line->operand, "gas", print_domain, value, &error);
+}
+
 static void print_key(void *user, const struct kiln_option_key *key)
 {
     struct value *value = user;
@@ -406,6 +419,7 @@ static const struct {
     {"TEMPLATE", print_templates},   {"STAGE", print_stages},
     {"FIGURE", print_files},         {"SUITE", print_suites},
     {"STREAM", print_events},        {"JOBS", print_files},
+    {"DOMAIN", print_domains},
 };
 
 static void complete_placeholder(struct value *value, const char *placeholder, size_t length)

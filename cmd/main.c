@@ -19,6 +19,7 @@
 
 const struct command *const commands[] = {&render_command,
                                           &bake_command,
+                                          &export_command,
                                           &plan_command,
                                           &join_command,
                                           &encode_command,

@@ -1,6 +1,8 @@
 /* Plans a clip: measures what frames and steps cost, and divides the clip into tasks. The frames
  * are those with the least and the most work, as the births of the scene tell it. The costs of all
  * other frames lie between, by their work. */
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -24,6 +26,12 @@ struct sample {
     double work, cpu_s;
 };
 
+/* Steps that were measured: those after `from`, up to `to`. */
+struct span {
+    uint32_t from, to;
+    double cpu_s;
+};
+
 struct planning {
     struct kiln_device *device;
     const struct kiln_scene *scene;
@@ -35,6 +43,10 @@ struct planning {
     struct sample frames[2]; /* by their work; the last is that of plan->frame */
     uint32_t frame_count;
     struct sample steps; /* all that were measured */
+    /* the same by frame, of scenes with gas, whose steps depend on where the gas went */
+    struct span *spans;
+    uint32_t span_count;
+    uint32_t next_frame; /* the first one that was not advanced to */
     double caches_cpu_s; /* what frames that filled caches took more than others */
     struct kiln_plan *plan;
 };
@@ -74,7 +86,7 @@ static bool set_up(struct planning *p, struct kiln_error *error)
 }
 
 /* Advances to a frame, and measures the steps. */
-static bool advance(struct planning *p, uint32_t frame, struct kiln_error *error)
+static bool advance_at_once(struct planning *p, uint32_t frame, struct kiln_error *error)
 {
     const uint64_t steps = kiln_loop_steps(p->loop);
     const double before_s = kiln_clock_cpu_seconds();
@@ -82,10 +94,25 @@ static bool advance(struct planning *p, uint32_t frame, struct kiln_error *error
         return false;
     const uint32_t end = kiln_scene_frame_step(p->scene, frame);
     const uint32_t count = (uint32_t)(kiln_loop_steps(p->loop) - steps);
-    p->steps.cpu_s += kiln_clock_cpu_seconds() - before_s;
+    const double cpu_s = kiln_clock_cpu_seconds() - before_s;
+    p->steps.cpu_s += cpu_s;
     p->steps.work += kiln_workload_steps(p->workload, end - count, end);
     p->plan->steps += count;
+    if (p->spans && count > 0)
+        p->spans[p->span_count++] = (struct span){end - count, end, cpu_s};
     return true;
+}
+
+static bool advance(struct planning *p, uint32_t frame, struct kiln_error *error)
+{
+    for (; p->spans && p->next_frame < frame; p->next_frame++) {
+        /* a saved state may lie behind some frames */
+        const uint32_t end = kiln_scene_frame_step(p->scene, p->next_frame);
+        if (end > kiln_loop_run(p->loop)->step && !advance_at_once(p, p->next_frame, error))
+            return false;
+    }
+    p->next_frame = frame + 1;
+    return advance_at_once(p, frame, error);
 }
 
 /* Draws a frame and measures that. */
@@ -195,8 +222,38 @@ static double frame_seconds(const struct planning *p, uint32_t frame)
     return light->cpu_s + part * (heavy->cpu_s - light->cpu_s);
 }
 
+/* Returns the time of a unit of work in the last quarter of the frames that were measured. */
+static double last_rate(const struct planning *p)
+{
+    double cpu_s = 0.0, work = 0.0;
+    for (uint32_t i = 3 * p->span_count / 4; i < p->span_count; i++) {
+        cpu_s += p->spans[i].cpu_s;
+        work += kiln_workload_steps(p->workload, p->spans[i].from, p->spans[i].to);
+    }
+    return work > 0.0 ? cpu_s / work : 0.0;
+}
+
+/* Returns the time of steps: of those that were measured what they took, of others that of the last
+ * ones for their work. */
+static double spans_seconds(const struct planning *p, uint32_t from, uint32_t to)
+{
+    double seconds = 0.0, work = kiln_workload_steps(p->workload, from, to);
+    for (uint32_t i = 0; i < p->span_count; i++) {
+        const struct span *span = &p->spans[i];
+        const uint32_t first = span->from > from ? span->from : from;
+        const uint32_t end = span->to < to ? span->to : to;
+        if (first >= end)
+            continue;
+        seconds += span->cpu_s * (end - first) / (span->to - span->from);
+        work -= kiln_workload_steps(p->workload, first, end);
+    }
+    return seconds + fmax(work, 0.0) * last_rate(p);
+}
+
 static double steps_seconds(const struct planning *p, uint32_t from, uint32_t to)
 {
+    if (p->span_count > 0)
+        return spans_seconds(p, from, to);
     return p->steps.work > 0.0
                ? p->steps.cpu_s / p->steps.work * kiln_workload_steps(p->workload, from, to)
                : 0.0;
@@ -251,7 +308,10 @@ bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
     plan.part_frames = kiln_part_frames(scene->fps.num, scene->fps.den);
     plan.parts = (scene->frames - 1) / plan.part_frames + 1;
     planning.workload = kiln_workload_create(scene);
-    bool ok = planning.workload || kiln_error_no_memory(error, "the plan");
+    if (scene->gas_count > 0)
+        planning.spans = calloc((size_t)scene->frames + 1, sizeof *planning.spans);
+    bool ok = (planning.workload && (planning.spans || scene->gas_count == 0)) ||
+              kiln_error_no_memory(error, "the plan");
     ok = ok && set_up(&planning, error) && measure(&planning, error);
     for (uint32_t i = 0; ok && params.task && i < params.tasks; i++) {
         const struct kiln_plan_task task = task_of(&planning, i);
@@ -259,6 +319,7 @@ bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
     }
     kiln_sized_give(out, &plan);
     kiln_workload_destroy(&planning.workload);
+    free(planning.spans);
     kiln_states_close(&planning.states);
     kiln_loop_destroy(&planning.loop);
     kiln_hold_release(device, scene);

@@ -1,6 +1,6 @@
 /* Writes and reads saved states. The file has a head of fixed order, which ends with its CRC-32,
- * then packed tables of the records, the spins, the painted canvases and the history of a stage.
- * Integers are little-endian. */
+ * then packed tables of the records, the spins, the painted canvases, gas and the history of a
+ * stage. Integers are little-endian. */
 #include "job/state.h"
 
 #include <stdlib.h>
@@ -11,8 +11,8 @@
 #include "asset/geometry/chart.h"
 #include "base/error.h"
 #include "base/file_in.h"
-#include "job/pack.h"
 #include "job/state_check.h"
+#include "job/state_visit.h"
 
 #define MAGIC "kiln state "
 
@@ -32,12 +32,13 @@ enum { HAS_SPINS = 1, HAS_WAYS = 2 };
 struct head {
     struct kiln_state_info info;
     uint32_t of_whole; /* of the history */
-    uint32_t system_count, canvas_count;
+    uint32_t system_count, canvas_count, gas_count;
     struct head_system {
         uint32_t capacity, rows; /* rows: HAS_SPINS, HAS_WAYS */
         uint64_t next_serial, birth_wait;
     } systems[KILN_MAX_SYSTEMS];
     struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
+    struct kiln_state_gas gas[KILN_MAX_GAS];
 };
 
 /* ---- the head: one description for writing and reading --------------------------------------- */
@@ -79,6 +80,34 @@ static void pass_word(struct cursor *c, uint32_t *value)
     *value = (uint32_t)wide;
 }
 
+static void pass_gas(struct cursor *c, struct kiln_state_gas *gas)
+{
+    for (int i = 0; i < 3; i++) {
+        pass_word(c, &gas->at[i]);
+        pass_word(c, &gas->cells[i]);
+    }
+    pass_word(c, &gas->groups);
+    pass_word(c, &gas->bricks);
+    pass_word(c, &gas->fastest);
+    pass_word(c, &gas->kept);
+    pass_long(c, &gas->smoke, 8);
+    pass_long(c, &gas->growth, 8);
+    pass_long(c, &gas->due, 8);
+}
+
+/* A state without gas is as it was before states had gas: the number of domains lies in the upper
+ * half of that of painted meshes. */
+static void pass_counts(struct cursor *c, struct head *head)
+{
+    uint32_t both = head->canvas_count | head->gas_count << 16;
+    pass_word(c, &head->system_count);
+    pass_word(c, &both);
+    head->canvas_count = both & 0xffff;
+    head->gas_count = both >> 16;
+    c->failed |= head->system_count > KILN_MAX_SYSTEMS || head->canvas_count > KILN_MAX_MESHES ||
+                 head->gas_count > KILN_MAX_GAS;
+}
+
 static void pass_head(struct cursor *c, struct head *head)
 {
     struct kiln_state_info *info = &head->info;
@@ -91,9 +120,7 @@ static void pass_head(struct cursor *c, struct head *head)
     pass_word(c, &info->hash.lane[1]);
     pass_long(c, &info->alive, 8);
     pass_word(c, &head->of_whole);
-    pass_word(c, &head->system_count);
-    pass_word(c, &head->canvas_count);
-    c->failed |= head->system_count > KILN_MAX_SYSTEMS || head->canvas_count > KILN_MAX_MESHES;
+    pass_counts(c, head);
     for (uint32_t i = 0; i < head->system_count && !c->failed; i++) {
         struct head_system *system = &head->systems[i];
         pass_word(c, &system->capacity);
@@ -108,6 +135,8 @@ static void pass_head(struct cursor *c, struct head *head)
         pass_word(c, &canvas->slot_count);
         pass_word(c, &canvas->next);
     }
+    for (uint32_t i = 0; i < head->gas_count && !c->failed; i++)
+        pass_gas(c, &head->gas[i]);
 }
 
 static struct head head_of(const struct kiln_state *state)
@@ -116,7 +145,8 @@ static struct head head_of(const struct kiln_state *state)
     struct head head = {.info = state->info,
                         .of_whole = state->history.of_whole,
                         .system_count = pool->system_count,
-                        .canvas_count = pool->canvas_count};
+                        .canvas_count = pool->canvas_count,
+                        .gas_count = pool->gas_count};
     for (uint32_t i = 0; i < pool->system_count; i++) {
         const struct kiln_pool_system *system = &pool->systems[i];
         const uint32_t rows = (system->spins ? HAS_SPINS : 0u) | (system->travels ? HAS_WAYS : 0u);
@@ -130,6 +160,8 @@ static struct head head_of(const struct kiln_state *state)
         head.canvases[i] = (struct kiln_canvas_shape){
             .edge = canvas->edge, .slot_count = canvas->slot_count, .next = canvas->next};
     }
+    for (uint32_t i = 0; i < pool->gas_count; i++)
+        head.gas[i] = kiln_state_gas_of(&pool->gas[i]);
     return head;
 }
 
@@ -204,7 +236,10 @@ static bool is_plausible(const struct head *head)
         edge = head->canvases[i].edge > edge ? head->canvases[i].edge : edge;
         slots += head->canvases[i].slot_count;
     }
-    return slots < UINT32_MAX && edge <= KILN_MAX_CHART;
+    bool gas = true;
+    for (uint32_t i = 0; i < head->gas_count; i++)
+        gas = gas && kiln_state_gas_is_plausible(&head->gas[i]);
+    return gas && slots < UINT32_MAX && edge <= KILN_MAX_CHART;
 }
 
 static bool read_head(int file, const char *path, struct head *head, struct kiln_error *error)
@@ -234,30 +269,19 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
 
 /* ---- the tables ------------------------------------------------------------------------------ */
 
-/* A visitor is called with each table of a state in the order of the file. It writes, reads or only
- * checks the table. The words of a table are NULL where it is only checked. */
-struct visitor {
-    bool (*visit)(const struct visitor *visitor, const struct kiln_table *table,
-                  struct kiln_error *error);
-    struct kiln_threads *threads;
-    struct kiln_temporary *out;
-    int file;
-    const char *path;
-};
-
-static bool write_table(const struct visitor *v, const struct kiln_table *table,
+static bool write_table(const struct kiln_state_visitor *v, const struct kiln_table *table,
                         struct kiln_error *error)
 {
     return kiln_pack_write(table, v->threads, v->out, error);
 }
 
-static bool read_table(const struct visitor *v, const struct kiln_table *table,
+static bool read_table(const struct kiln_state_visitor *v, const struct kiln_table *table,
                        struct kiln_error *error)
 {
     return kiln_pack_read(table, v->threads, v->file, v->path, error);
 }
 
-static bool check_table(const struct visitor *v, const struct kiln_table *table,
+static bool check_table(const struct kiln_state_visitor *v, const struct kiln_table *table,
                         struct kiln_error *error)
 {
     return kiln_pack_check(table, v->file, v->path, error);
@@ -268,9 +292,10 @@ static bool check_table(const struct visitor *v, const struct kiln_table *table,
 struct places {
     uint32_t *records, *spins, *history;
     uint32_t *texels[KILN_MAX_MESHES], *waiting[KILN_MAX_MESHES];
+    struct kiln_gas *gas[KILN_MAX_GAS];
 };
 
-static bool visit_tables(const struct visitor *v, const struct head *head,
+static bool visit_tables(const struct kiln_state_visitor *v, const struct head *head,
                          const struct places *places, struct kiln_error *error)
 {
     size_t slots = 0, spins = 0;
@@ -291,6 +316,10 @@ static bool visit_tables(const struct visitor *v, const struct head *head,
         if (!v->visit(v, &texels, error) || !v->visit(v, &waiting, error))
             return false;
     }
+    for (uint32_t i = 0; i < head->gas_count; i++) {
+        if (!kiln_state_gas_visit(v, &head->gas[i], places->gas[i], error))
+            return false;
+    }
     const struct kiln_table history = {places->history, slots, 1, 0};
     return !head->info.history[0] || v->visit(v, &history, error);
 }
@@ -308,6 +337,8 @@ static bool find_places(struct kiln_pool *pool, enum kiln_access access, struct 
         places->texels[i] = (uint32_t *)pool->canvases[i].texels;
         places->waiting[i] = (uint32_t *)pool->canvases[i].pending;
     }
+    for (uint32_t i = 0; i < pool->gas_count; i++)
+        places->gas[i] = &pool->gas[i];
     return true;
 }
 
@@ -324,7 +355,8 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
         !kiln_target_check(path, overwrite, error) || !kiln_temporary_open(&file, path, error))
         return false;
     file.durable = true; /* a later run must find it, even after a crash */
-    const struct visitor visitor = {.visit = write_table, .threads = threads, .out = &file};
+    const struct kiln_state_visitor visitor = {
+        .visit = write_table, .threads = threads, .out = &file};
     if (write_head(&file, &head, error) && visit_tables(&visitor, &head, &places, error))
         return kiln_temporary_commit(&file, overwrite, error);
     kiln_temporary_discard(&file);
@@ -348,7 +380,7 @@ bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kil
         return false;
     struct head head;
     const struct places nowhere = {.records = NULL};
-    const struct visitor visitor = {.visit = check_table, .file = file, .path = path};
+    const struct kiln_state_visitor visitor = {.visit = check_table, .file = file, .path = path};
     const bool ok = read_head(file, path, &head, error) &&
                     visit_tables(&visitor, &head, &nowhere, error) && is_at_end(file, path, error);
     close(file);
@@ -362,8 +394,8 @@ bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kil
 static bool shape_pool(struct kiln_pool *pool, const struct head *head, const char *path,
                        struct kiln_error *error)
 {
-    bool fits =
-        head->system_count == pool->system_count && head->canvas_count == pool->canvas_count;
+    bool fits = head->system_count == pool->system_count &&
+                head->canvas_count == pool->canvas_count && head->gas_count == pool->gas_count;
     for (uint32_t i = 0; i < pool->system_count && fits; i++) {
         struct kiln_pool_system *system = &pool->systems[i];
         fits = head->systems[i].capacity == system->capacity &&
@@ -378,10 +410,16 @@ static bool shape_pool(struct kiln_pool *pool, const struct head *head, const ch
         canvas->next = from->next;
         canvas->changes++; /* a new count makes the painted texture be uploaded again */
     }
-    return fits || refuse(path, "the state belongs to other systems", error);
+    if (!fits)
+        return refuse(path, "the state belongs to other systems", error);
+    for (uint32_t i = 0; i < pool->gas_count; i++) {
+        if (!kiln_state_gas_shape(&pool->gas[i], &head->gas[i], path, error))
+            return false;
+    }
+    return true;
 }
 
-static bool read_state(struct kiln_state *state, const struct visitor *visitor,
+static bool read_state(struct kiln_state *state, const struct kiln_state_visitor *visitor,
                        struct kiln_error *error)
 {
     struct head head;
@@ -407,7 +445,7 @@ bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_thr
     const int file = kiln_file_open(path, "saved state", "kiln bake", &size, error);
     if (file < 0)
         return false;
-    const struct visitor visitor = {
+    const struct kiln_state_visitor visitor = {
         .visit = read_table, .threads = threads, .file = file, .path = path};
     const bool ok = read_state(state, &visitor, error);
     close(file);

@@ -4,6 +4,7 @@
 #define KILN_JOB_STATE_H
 
 #include "base/thread.h"
+#include "job/state_visit.h"
 #include "particles/history.h"
 
 /* Identifies a state. scene/motion.h makes the hashes. */
@@ -25,8 +26,11 @@ struct kiln_state_info {
 };
 
 /* The most bytes of a state's head: of the line "kiln state 1" with the head's size and CRC, of the
- * identity with the counts, of each system and of each painted mesh. */
-enum { KILN_STATE_MAX_HEAD = 21 + 180 + 24 * KILN_MAX_SYSTEMS + 12 * KILN_MAX_MESHES };
+ * identity with the counts, of each system, of each painted mesh and of each domain of gas. */
+enum {
+    KILN_STATE_MAX_HEAD =
+        21 + 180 + 24 * KILN_MAX_SYSTEMS + 12 * KILN_MAX_MESHES + KILN_STATE_GAS_HEAD * KILN_MAX_GAS
+};
 
 struct kiln_state {
     struct kiln_state_info info;

@@ -1,14 +1,16 @@
-/* Estimates the number of particles over time. The run is divided into slots of time. In each, a
- * system gets births by its rate, its bursts, or what its parents do. A birth lives between the
- * shortest and the longest life of its time, evenly spread, so the number of the living that it
- * leaves falls along a line: sums of second differences give the numbers of all slots in one pass.
- * Nothing is known of collisions, bounds and demitters, which end lives early. */
+/* Estimates the number of particles, and the gas, over time. The run is divided into slots of time.
+ * In each, a system gets births by its rate, its bursts, or what its parents do. A birth lives
+ * between the shortest and the longest life of its time, evenly spread, so the number of the living
+ * that it leaves falls along a line: sums of second differences give the numbers of all slots in
+ * one pass. Nothing is known of collisions, bounds and demitters, which end lives early. */
 #include "job/workload.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "scene/family.h"
+#include "scene/gas_extent.h"
+#include "scene/gas_shape.h"
 #include "scene/instant.h"
 
 enum { MOST_SLOTS = 1 << 16 };
@@ -16,6 +18,8 @@ enum { MOST_SLOTS = 1 << 16 };
 /* The cost of a particle and of a pixel, in about nanoseconds of a processor. Only their ratios
  * matter. */
 static const double STEP_FIXED = 20e3, STEP_PARTICLE = 30, PAIR = 0.5;
+static const double STEP_GAS_CELL = 15, STEP_GAS_ACTIVE = 150; /* of the window; with gas */
+static const double DRAW_GAS_CELL = 15, DRAW_GAS_ACTIVE = 150;
 static const double FRAME_PIXEL = 25, DRAW_PARTICLE = 100, DRAW_PIXEL = 0.6, SORTED_PIXEL = 15;
 
 static const double NEAR = 0.05;
@@ -239,6 +243,34 @@ static void add_work(struct kiln_workload *w, const struct kiln_system *system,
     }
 }
 
+/* Adds the work of gas, which spreads from its sources. It is found at some moments, between which
+ * it grows along lines. */
+static void add_gas(struct kiln_workload *w, uint32_t number)
+{
+    enum { MOMENTS = 65 };
+    const struct kiln_scene *scene = w->scene;
+    const double substeps = kiln_gas_least_substeps(scene, &scene->gas[number]);
+    const double moments = kiln_scene_moment_count(scene);
+    double cells[MOMENTS], active[MOMENTS];
+    for (int k = 0; k < MOMENTS; k++) {
+        const double slot = (w->count - 1.0) * k / (MOMENTS - 1);
+        const struct kiln_gas_extent extent =
+            kiln_gas_extent_at(scene, number, w->start_s + (slot + 1.0) * w->length_s);
+        const struct kiln_gas_place *n = &extent.cells;
+        cells[k] = (double)n->x * n->y * n->z;
+        active[k] = (double)extent.bricks * GAS_BRICK_CELLS;
+    }
+    for (uint32_t i = 0; i < w->count; i++) {
+        const double at = w->count > 1 ? (double)i * (MOMENTS - 1) / (w->count - 1.0) : 0.0;
+        const uint32_t k = (uint32_t)fmin(at, MOMENTS - 2);
+        const double part = at - k;
+        const double all = cells[k] + part * (cells[k + 1] - cells[k]);
+        const double full = active[k] + part * (active[k + 1] - active[k]);
+        w->steps[i] += substeps * (STEP_GAS_CELL * all + STEP_GAS_ACTIVE * full);
+        w->frames[i] += moments * (DRAW_GAS_CELL * all + DRAW_GAS_ACTIVE * full);
+    }
+}
+
 static bool fill(struct kiln_workload *w, struct numbers *n)
 {
     const struct kiln_scene *scene = w->scene;
@@ -248,6 +280,9 @@ static bool fill(struct kiln_workload *w, struct numbers *n)
         w->steps[i] = STEP_FIXED;
         w->frames[i] = frame * kiln_scene_moment_count(scene);
     }
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        if (scene->gas[i].enabled)
+            add_gas(w, i);
     kiln_family_order(scene, order);
     for (uint32_t k = 0; k < scene->system_count; k++) {
         const struct kiln_system *system = &scene->systems[order[k]];

@@ -48,11 +48,15 @@ static void repair(uint8_t *data, size_t size)
     }
 }
 
-/* Reads a state into a pool of two systems, which is the pool of the states in the corpus. The pool
- * gets the spins and the painted canvases that the state has, by its head. */
-static void read_into_pool(const char *path, const struct kiln_state_info *info)
+/* Reads a state into a pool of two systems, which is the pool of the states in the corpus, and of
+ * one domain of gas or none. The pool gets the spins and the painted canvases that the state has,
+ * by its head. */
+static void read_into_pool(const char *path, const struct kiln_state_info *info, uint32_t gas_count)
 {
-    struct kiln_pool_layout layout = {.system_count = 2, .capacities = {26, 52}};
+    struct kiln_pool_layout layout = {.system_count = 2,
+                                      .capacities = {26, 52},
+                                      .gas_count = gas_count,
+                                      .gas = {{.cells = {32, 32, 32}, .cell = 0.1f}}};
     for (uint32_t i = 0; i < layout.system_count; i++) {
         layout.spins[i] = info->spins[i];
         layout.travels[i] = info->travels[i];
@@ -87,9 +91,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         repair(copy, size);
         const bool written = write(file, copy, size) == (ssize_t)size;
         close(file);
-        if (written && kiln_state_check(path, &info, &error))
-            read_into_pool(path, &info);
-        else if (written)
+        if (written && kiln_state_check(path, &info, &error)) {
+            read_into_pool(path, &info, 0);
+            if (!fuzz_taken)
+                read_into_pool(path, &info, 1);
+        } else if (written)
             require(error.code != KILN_OK && *error.message, "an error without a message");
         unlink(path);
     }
