@@ -88,6 +88,14 @@ static const struct option options[] = {
      .fallback = "64, or 2 with --quick",
      .min = 2,
      .max = KILN_BENCH_MAX_PARTS},
+    {.name = "cells",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Cells along an edge of the boxes of the suite gas, in multiples of 16. A box of 256 "
+             "takes 3 GiB.",
+     .fallback = "64, and then 128",
+     .min = 32,
+     .max = 512},
     PARAMS_OPTION,
     SET_OPTION,
     ASSET_ROOT_OPTION,
@@ -176,6 +184,7 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
     params.stage_count = lists->stages.count;
     params.against = arguments_text(arguments, "against", NULL);
     params.parts = arguments_integer(arguments, "parts", 0);
+    params.cells = (arguments_integer(arguments, "cells", 0) + 15) / 16 * 16;
     params.device = arguments_text(arguments, "device", NULL);
     params.techniques = lists->techniques.items;
     params.technique_count = lists->techniques.count;
@@ -222,6 +231,9 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
     if (arguments_flag(arguments, "parts") && !jobs)
         return report(KILN_USAGE,
                       "bench: --parts is for the suite jobs, and the suite is not named");
+    if (arguments_flag(arguments, "cells") && !kiln_bench_names(params, "gas"))
+        return report(KILN_USAGE,
+                      "bench: --cells is for the suite gas, and the suite is not named");
     return 0;
 }
 

@@ -35,7 +35,9 @@ struct kiln_bench_params {
     const char *against; /* another program of kiln, with which this one is compared on the scenes;
                             NULL: none */
     uint32_t parts;      /* parts of the clip that the suite `jobs` renders; 0: the clip's own */
-    const char *device;  /* as kiln_device_params.wanted */
+    uint32_t cells; /* along an edge of the boxes of the suite `gas`, in multiples of 16; 0: 64, and
+                       then 128 */
+    const char *device;            /* as kiln_device_params.wanted */
     const char *const *techniques; /* "stage=name", where a suite does not set another technique */
     size_t technique_count;
     uint32_t threads;     /* 0 takes one a core */

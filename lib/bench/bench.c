@@ -52,6 +52,8 @@ static const struct kiln_suite_row SUITES[] = {
     {{"paint", "painting with particles by its gather (Drone 2007, 7.6.1)", 0.4}, kiln_suite_paint},
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
     {{"states", "size of saved states, and time to save and to load one", 1.5}, kiln_suite_states},
+    {{"gas", "steps of gas by pass, level and threads; its memory, drawing, states and export", 2},
+     kiln_suite_gas},
     {{JOBS, "64 parts of a clip with states compared with one run, and many workers", 5},
      kiln_suite_jobs},
     {{THREADS, "CPU time of a frame with 1, 2 and 8 threads, and how much of it is serial", 0.5},

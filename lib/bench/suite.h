@@ -23,6 +23,7 @@ bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error
 bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_gas(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_threads(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);

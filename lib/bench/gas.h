@@ -1,0 +1,28 @@
+/* Declares what the files of the suite `gas` of `kiln bench` share. */
+#ifndef KILN_BENCH_GAS_H
+#define KILN_BENCH_GAS_H
+
+#include "bench/suite.h"
+#include "sim/gas/solver.h"
+
+enum { KILN_GAS_SIZES = 2 };
+
+/* The boxes of the suite: cells along their edges. */
+struct kiln_gas_sizes {
+    const struct kiln_bench_run *run;
+    int32_t edges[KILN_GAS_SIZES];
+    uint32_t count;
+};
+
+/* Adds a row to the last part, whose x is the edge of a size. */
+bool kiln_bench_add_gas(const struct kiln_gas_sizes *sizes, uint32_t size, const char *measure,
+                        const char *technique, const double *values, size_t count,
+                        struct kiln_error *error);
+
+/* The names of the passes of a step. */
+extern const char *const kiln_gas_pass_names[GAS_TIMERS];
+
+/* Add the parts about steps of boxes and their memory (gas_box.c). */
+bool kiln_bench_gas_boxes(const struct kiln_gas_sizes *sizes, struct kiln_error *error);
+
+#endif
