@@ -13,6 +13,7 @@ import sys
 NOTHING_TO_OFFER = {
     "10s|N", "I/N|auto|auto/N", "COLUMNSxROWS", "FACTOR", "I/N", "LAYER", "LENGTH", "LEVELS", "N", "NUMBER", "PIXELS", "RANGES", "RATE", "S", "STOPS", "TIME",
     "TEXT", "WxH", "X,Y,WxH",
+    "DOMAIN",  # of a scene's gas (tests/cli/cases/complete.t)
     "PATTERN", "NAME",  # names of tests, offered where there are results (tests/cli/cases/test.t)
 }
 KILN = sys.argv[1]

@@ -48,7 +48,8 @@ def test_structs_have_the_layout_of_the_compiler(tmp_path):
 def test_defaults_are_those_of_the_inline_functions(tmp_path):
     """Compares the defaults with those of the C functions, by a program that prints differences."""
     functions = {"kiln_render_params": "kiln_render_defaults", "kiln_compare_params": "kiln_compare_defaults",
-                 "kiln_encode_params": "kiln_encode_defaults", "kiln_plan_params": "kiln_plan_defaults"}
+                 "kiln_encode_params": "kiln_encode_defaults", "kiln_plan_params": "kiln_plan_defaults",
+                 "kiln_export_params": "kiln_export_defaults"}
     assert {name for name, values in _header.DEFAULTS.items() if values} == functions.keys()
     checks = []
     for struct, function in functions.items():

@@ -8,7 +8,7 @@ import Ajv from "ajv";
 import { parse } from "yaml";
 
 const [sceneText, source] = process.argv.slice(2);
-const run = (...args) => execFileSync(sceneText, args, { encoding: "utf8" });
+const run = (...args) => execFileSync(sceneText, args, { encoding: "utf8", maxBuffer: 1 << 26 });
 
 const ajv = new Ajv({ strict: true, allowUnionTypes: true, strictRequired: false });
 const validate = ajv.compile(JSON.parse(run("schema")));

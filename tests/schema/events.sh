@@ -24,6 +24,9 @@ run bake $tiny -o states --every 10 --device cpu --resume
 run render $tiny -o none --frames 20 --states states --set seed=9 --device cpu
 printf '{"scene": "%s", "output": "batch_%d.png", "frames": "0"}\n{"scene": "none.yaml", "output": "x.png"}\n' $tiny >jobs.ndjson
 run render --batch jobs.ndjson --keep-going --device cpu
+run export $tiny -o gas_%d.vdb --device cpu
+printf 'kiln: 1\noutput: {frames: 2}\ngas: {fire: {box: {center: [0, 1, 0], size: [2, 2, 2]}, cells: 16}}\n' >gas.yaml
+run export gas.yaml -o gas_%d.vdb --device cpu
 run plan $tiny --device cpu
 run join b.mp4
 run encode a_%d.png -o c.mp4

@@ -509,8 +509,8 @@ uint32_t fixture_force_kinds(enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS]
         bool known = false;
         for (uint32_t i = 0; i < count; i++)
             known = known || (int)kinds[i] == row->value;
-        if (known)
-            continue; /* the row is a second name of a kind in the list */
+        if (known || row->value == KILN_FORCE_GAS)
+            continue; /* the row is a second name of a kind in the list, or needs a domain of gas */
         assert_true(count < FIXTURE_MAX_FORCE_KINDS);
         kinds[count++] = (enum kiln_force_kind)row->value;
     }

@@ -48,16 +48,17 @@ static struct kiln_device *open_cpu(void)
 static void assert_refused(struct kiln_device *device, const struct kiln_scene *scene,
                            const char *message)
 {
-    struct kiln_error errors[4];
+    struct kiln_error errors[5];
     struct kiln_bake_params baking = kiln_bake_defaults();
     baking.states = "states";
-    for (size_t i = 0; i < 4; i++)
+    for (size_t i = 0; i < 5; i++)
         errors[i] = kiln_error_empty();
     assert_null(kiln_rendering_begin(device, scene, NULL, &errors[0]));
     assert_false(kiln_render(device, scene, NULL, NULL, &errors[1]));
     assert_false(kiln_bake(device, scene, &baking, NULL, &errors[2]));
     assert_false(kiln_plan_tasks(device, scene, NULL, NULL, &errors[3]));
-    for (size_t i = 0; i < 4; i++) {
+    assert_false(kiln_export(device, scene, NULL, NULL, &errors[4]));
+    for (size_t i = 0; i < 5; i++) {
         assert_string_equal(errors[i].message, message);
         assert_int_equal(errors[i].code, KILN_USAGE);
     }

@@ -77,7 +77,7 @@ static const struct bad bad_aliases[] = {
      "test.yaml:3:16"},
     {"kiln: 1\n<<: {seed: 1, x: 2}\n", ":2:15: x: unknown key (there are: kiln, include, params, "
                                        "seed, output, simulation, nodes, camera, "
-                                       "backdrop, systems, post)"},
+                                       "backdrop, systems, gas, post)"},
 };
 
 static void aliases_fail(void **state)

@@ -32,7 +32,7 @@ static const struct bad keys[] = {
     {"kiln: 1\n"
      "colour: red\n",
      ":2:1: colour: unknown key (there are: kiln, include, params, seed, output, simulation, "
-     "nodes, camera, backdrop, systems, post)"},
+     "nodes, camera, backdrop, systems, gas, post)"},
     {"kiln: 1\n"
      "seed: 1\n"
      "seed: 2\n",
@@ -49,7 +49,7 @@ static const struct bad keys[] = {
     {"kiln: 1\n"
      "\"a\\e[31mb\": 3\n",
      ":2:1: a\\x1b[31mb: unknown key (there are: kiln, include, params, seed, output, simulation, "
-     "nodes, camera, backdrop, systems, post)"},
+     "nodes, camera, backdrop, systems, gas, post)"},
     {"seed: 1\n", ":1:1: kiln: the key is missing and must be given"},
     {"kiln: 2\n", ":1:7: kiln: 2 is out of range; allowed is 1"},
 };

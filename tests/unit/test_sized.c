@@ -39,6 +39,7 @@ ENDS_WITH(kiln_render_params, written);
 ENDS_WITH(kiln_compare_mask, picture);
 ENDS_WITH(kiln_compare_params, log);
 ENDS_WITH(kiln_bake_params, log);
+ENDS_WITH(kiln_export_params, log);
 ENDS_WITH(kiln_join_params, log);
 ENDS_WITH(kiln_encode_params, log);
 ENDS_WITH(kiln_plan_params, log);

@@ -115,7 +115,7 @@ struct foreign {
     struct kiln_device *device;
     struct kiln_scene *scene;
     struct kiln_rendering *job;
-    struct kiln_error next, take, end, begin, render, bake, plan;
+    struct kiln_error next, take, end, begin, render, bake, plan, export;
     bool refused; /* all calls failed, and the job was not ended */
 };
 
@@ -133,7 +133,8 @@ static void *use(void *user)
                  !kiln_rendering_begin(f->device, f->scene, NULL, &f->begin) &&
                  !kiln_render(f->device, f->scene, NULL, NULL, &f->render) &&
                  !kiln_bake(f->device, f->scene, &baking, NULL, &f->bake) &&
-                 !kiln_plan_tasks(f->device, f->scene, NULL, NULL, &f->plan);
+                 !kiln_plan_tasks(f->device, f->scene, NULL, NULL, &f->plan) &&
+                 !kiln_export(f->device, f->scene, NULL, NULL, &f->export);
     return NULL;
 }
 
@@ -175,6 +176,7 @@ static void another_thread_cannot_use_a_job_or_its_device(void **state)
     assert_refused(&f.render, device);
     assert_refused(&f.bake, device);
     assert_refused(&f.plan, device);
+    assert_refused(&f.export, device);
 
     struct kiln_frame *frame = kiln_rendering_take_frame(f.job, &error);
     assert_non_null(frame); /* the job goes on as if nobody had called */

@@ -114,6 +114,8 @@ static void forces_are_known(void **state)
         /* the forces of a baked wind are for the kernel that writes it */
         {"systems.a.forces=[wind: {baked: {box: {size: [1, 1, 1]}, of: [vortex: 1, curl: 1]}}]",
          BIT(FORCE_BAKED)},
+        /* kernels read the wind of gas as a baked one */
+        {"gas={g: {box: {size: [1, 1, 1]}}};systems.a.forces=[wind: {gas: g}]", BIT(FORCE_BAKED)},
         {"systems.a.forces=[drag: {region: {sphere: {}}}]", BIT(FORCE_DRAG) | BIT(FORCE_IN_REGION)},
         {"nodes={n: {}};systems.a.forces=[drag: {attach: n}]",
          BIT(FORCE_DRAG) | BIT(FORCE_IN_NODE)},

@@ -1,4 +1,5 @@
 /* lib/job/workload: how the work of frames and steps varies with births and lives. */
+#include <math.h>
 #include <string.h>
 
 #include "job/workload.h"
@@ -156,6 +157,35 @@ static void steps_add_up(void **state)
     finish(&clip);
 }
 
+/* Gas adds work as it spreads: a second step of it in each step of the scene doubles what steps
+ * add, and not what frames add. */
+static void gas_adds_work_as_it_spreads(void **state)
+{
+    (void)state;
+    static const char fire[] = "gas: {a: {box: {size: [2, 4, 2]}, cells: 64, rate: %d, sources: "
+                               "[{from: {disc: {radius: 0.3 m}}}]}}";
+    char text[2][200];
+    snprintf(text[0], sizeof text[0], fire, 0);
+    snprintf(text[1], sizeof text[1], fire, 120);
+    struct clip empty = clip_of("rate: 0", ""), one = clip_of("rate: 0", text[0]);
+    struct clip two = clip_of("rate: 0", text[1]);
+    const double fixed = kiln_workload_steps(empty.workload, 0, 100);
+    const double once = kiln_workload_steps(one.workload, 0, 100) - fixed;
+    const double twice = kiln_workload_steps(two.workload, 0, 100) - fixed;
+    assert_true(once > 0.0 && fabs(twice - 2.0 * once) < 1e-9 * twice);
+    assert_true(kiln_workload_steps(one.workload, 80, 90) >
+                1.5 * kiln_workload_steps(one.workload, 10, 20));
+    for (uint32_t frame = 1; frame < 60; frame++) {
+        assert_true(added(&one, frame) > 0.0 && added(&one, frame) == added(&two, frame));
+        assert_true(added(&one, frame) >= added(&one, frame - 1));
+    }
+    assert_int_equal(kiln_workload_lightest(one.workload), 0);
+    assert_true(kiln_workload_heaviest(one.workload) > 30);
+    finish(&empty);
+    finish(&one);
+    finish(&two);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -166,6 +196,7 @@ int main(void)
         cmocka_unit_test(children_follow_their_parents),
         cmocka_unit_test(trails_begin_at_their_parents_births),
         cmocka_unit_test(steps_add_up),
+        cmocka_unit_test(gas_adds_work_as_it_spreads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ $ printf 'kiln: 1\nsystems:\n  fire:\n    emit: {raet: 20, life: 1 s, speed: 1}\
 2|unknown_key.yaml:4:12: systems.fire.emit.raet: unknown key (did you mean 'rate'?)
 = 3
 $ printf 'kiln: 1\nfrobnicate: 2\n' | ./try unknown_far
-2|unknown_far.yaml:2:1: frobnicate: unknown key (there are: kiln, include, params, seed, output, simulation, nodes, camera, backdrop, systems, post)
+2|unknown_far.yaml:2:1: frobnicate: unknown key (there are: kiln, include, params, seed, output, simulation, nodes, camera, backdrop, systems, gas, post)
 = 3
 $ printf 'kiln: 1\nseed: soon\n' | ./try wrong_type
 2|wrong_type.yaml:2:7: seed: expected a whole number from 0 to 4294967295, found 'soon'

@@ -18,6 +18,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  paint       <time>  painting with particles by its gather (Drone 2007, 7.6.1)
 1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
 1|  states      <time>  size of saved states, and time to save and to load one
+1|  gas         <time>  steps of gas by pass, level and threads; its memory, drawing, states and export
 1|  jobs        <time>  64 parts of a clip with states compared with one run, and many workers
 1|  threads     <time>  CPU time of a frame with 1, 2 and 8 threads, and how much of it is serial
 1|  output      <time>  whole jobs to PNG, EXR and mp4, compared with the time of their stages
@@ -31,6 +32,7 @@ $ kiln bench scenes/tiny.yaml --device software --quick --stage bloom,composite 
 1|scenes/tiny.yaml,scenes/tiny.yaml,particles,sort,auto,ms,3
 1|scenes/tiny.yaml,scenes/tiny.yaml,particles,lighting,auto,ms,3
 1|scenes/tiny.yaml,scenes/tiny.yaml,particles,backdrop,auto,ms,3
+1|scenes/tiny.yaml,scenes/tiny.yaml,particles,gas,auto,ms,3
 1|scenes/tiny.yaml,scenes/tiny.yaml,particles,particles,auto,ms,3
 1|scenes/tiny.yaml,scenes/tiny.yaml,particles,bloom,auto,ms,3
 1|scenes/tiny.yaml,scenes/tiny.yaml,particles,composite,auto,ms,3
@@ -63,6 +65,7 @@ $ kiln bench scenes/tiny.yaml --device software --quick --set output.size=[32,32
 1| 46 sort auto N N - N 3
 1| 46 lighting auto N N - N 3
 1| 46 backdrop auto N N - N 3
+1| 46 gas auto N N - N 3
 1| 46 particles auto N N - N 3
 1| 46 bloom auto N N - N 3
 1| 46 composite auto N N - N 3
@@ -100,6 +103,9 @@ $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; the
 
 $ kiln bench bytes --parts 4
 2|kiln: bench: --parts is for the suite jobs, and the suite is not named
+= 2
+$ kiln bench states --cells 64
+2|kiln: bench: --cells is for the suite gas, and the suite is not named
 = 2
 $ kiln bench threads scenes/tiny.yaml --size 32x32
 2|kiln: bench: --size is for scenes, and no scene is measured by itself

@@ -97,6 +97,7 @@ $ kiln bench threads scenes/tiny.yaml --quick --quiet --device cpu --frame 3 --f
 1|8 sort, serial, ms
 1|8 lighting, serial, ms
 1|8 backdrop, serial, ms
+1|8 gas, serial, ms
 1|8 particles, serial, ms
 1|8 bloom, serial, ms
 1|8 composite, serial, ms
@@ -105,6 +106,41 @@ $ kiln bench threads scenes/tiny.yaml --quick --quiet --device cpu --frame 3 --f
 $ jq -c '[.parts[].rows[] | .value.median] | (min > -0.01), .[1] < .[0]' threads.json
 1|true
 1|true
+
+Of gas: steps of a box of 32 cells along an edge, its memory, and a fire that is stepped, saved, exported and drawn.
+
+$ kiln bench gas --quick --quiet --device cpu --format json >gas.json; jq -r '.parts[] | .name, .unit, ([.rows[].measure] | unique | join(" ")), ([.rows[].technique | sub("^(plain|avx2|avx512|neon), "; "")] | unique | join("; "))' gas.json
+1|gas
+1|ns a cell of the box; ms
+1|diverge elapsed, ms pressure project push react step trace
+1|1 thread; 2 threads
+1|gas_quarter
+1|ns a cell of the box; ms
+1|diverge elapsed, ms pressure project push react step trace
+1|1 thread; 2 threads
+1|gas_memory
+1|bytes a cell
+1|active idle
+1|bytes
+1|gas_fire
+1|ns an active cell
+1|diverge pressure project push react sources step trace
+1|auto
+1|gas_files
+1|ms; bytes an active cell
+1|export load save state
+1|bytes; ms
+1|gas_drawn
+1|ms
+1|frame gas simulate
+1|auto
+$ jq -c '[.parts[] | select(.name != "gas_memory") | .rows[].value.median > 0] | all' gas.json
+1|true
+$ jq -r '.parts[] | select(.name == "gas") | .notes[]' gas.json
+1|32 cells: 100 % of the bricks were active.
+$ kiln bench gas --cells 40 --repeat 3 --quiet --device cpu --quick --format csv | cut -d, -f4 | sort -u
+1|48
+1|x
 
 Where nothing can be measured, that is no success. What a flag says of a technique is kept.
 

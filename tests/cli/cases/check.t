@@ -148,3 +148,48 @@ $ kiln check scenes/box.yaml --set backdrop.objects.0.mesh='{file: waving.gltf, 
 1|#   clip 0 'wave' of 1.5 s
 1|#   material 'skin', not drawn yet: base colour 1 0.5 0.25 times 'puff.png'; alpha 1, cut at 0.5; roughness 0.5; metalness 0; normals of 'puff.png' (by the second texture coordinates); two-sided
 1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 2 particles, about <n> MiB
+
+How large domains of gas are, and which keys of a scene with gas are printed. A scene that is printed is the same one.
+
+$ printf '%s\n' 'kiln: 1' 'gas:' '  fire: {box: {size: [1.5, 2.4, 1.5]}, cells: 64, rate: 100, sources: [{from: {disc: {}}}]}' '  off: {use: fire, enabled: false}' '  smoke: {use: fire, cell: 10 cm, cells: auto, detail: 2, substeps: 3}' 'systems: {s: {emit: {rate: 9}, forces: [wind: {gas: fire}]}}' >gas.yaml
+> kiln check gas.yaml | grep '^#'
+1|# gas fire: 48 x 64 x 48 cells of 0.0375 m, up to 17 MiB, 2 steps or more in each of the scene
+1|# gas off: not enabled
+1|# gas smoke: 16 x 32 x 16 cells of 0.1 m, up to 1 MiB, 3 steps or more in each of the scene
+1|# work: 150 frames of 1280 x 720 pixels, 298 steps, up to 10 particles, about <n> MiB
+$ kiln check gas.yaml | sed -n '/^gas:/,/^    sides/p'
+1|gas:
+1|  fire:
+1|    enabled: true
+1|    attach: none
+1|    box:
+1|      center: [0, 1.2, 0]
+1|      size: [1.5, 2.4, 1.5]
+1|    cell: 0 m
+1|    cells: 64
+1|    sides:
+$ kiln check gas.yaml | grep -A 7 'sources:' | head -n 8
+1|    sources:
+1|      -
+1|        from:
+1|          disc:
+1|            origin: [0, 0, 0]
+1|            direction: [0, 1, 0]
+1|            radius: 0.25 m
+1|        attach: none
+$ kiln check gas.yaml >whole.yaml; [ "$(kiln check --hash gas.yaml)" = "$(kiln check --hash whole.yaml)" ]
+$ kiln check --origin gas.yaml | grep -E ' (fire|off|smoke|gas):|detail: 2'
+1|          gas: "fire"  # gas.yaml:6
+1|  fire:  # gas.yaml:3
+1|        smoke: 0  # default
+1|  off:  # gas.yaml:4
+1|        smoke: 0  # default
+1|  smoke:  # gas.yaml:5
+1|        smoke: 0  # default
+1|    detail: 2  # gas.yaml:5
+1|# gas fire: 48 x 64 x 48 cells of 0.0375 m, up to 17 MiB, 2 steps or more in each of the scene
+1|# gas off: not enabled
+1|# gas smoke: 16 x 32 x 16 cells of 0.1 m, up to 1 MiB, 3 steps or more in each of the scene
+$ kiln check scenes/tiny.yaml | grep -c gas
+1|0
+= 1

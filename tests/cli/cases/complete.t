@@ -112,6 +112,7 @@ $ kiln complete -- check --set 'systems.*.forces.0.wind.field='
 1|word	systems.*.forces.0.wind.field=vortex	
 1|word	systems.*.forces.0.wind.field=grid	
 1|word	systems.*.forces.0.wind.field=baked	
+1|word	systems.*.forces.0.wind.field=gas	
 $ kiln complete -- check --set post.tonemap=a
 1|word	post.tonemap=agx	
 1|word	post.tonemap=aces	
@@ -137,3 +138,12 @@ $ kiln complete -- render --seed ''
 $ kiln complete
 2|kiln: complete: needs -- WORD...
 = 2
+
+Domains of gas of the scene.
+
+$ printf 'kiln: 1\ngas: {fire: {}, plume: {}}\n' >gas.yaml
+$ kiln complete -- export gas.yaml --gas=f
+1|word	--gas=fire	a domain of gas
+$ kiln complete -- export gas.yaml --gas ''
+1|word	fire	a domain of gas
+1|word	plume	a domain of gas

@@ -40,8 +40,8 @@ $ kiln help limits | head -n 8
 1|--limits KEY=VALUE,... sets limits, and so does the environment's KILN_LIMITS; --limits is read
 1|last. `service` stands for all values of its column, `none` lifts a limit. A job that goes over a
 1|limit ends with exit code 8 and leaves no half-written file; --resume may go on. render, bake,
-1|plan and check have all limits. encode and join have memory, time, cpu and output. Tests have a
-1|time limit of their own.
+1|export, plan and check have all limits. encode and join have memory, time, cpu and output. Tests
+1|have a time limit of their own.
 1|
 1|KEY           service
 1|pixels        16777216    Width times height of the pictures.
@@ -108,7 +108,8 @@ $ ls -d out*
 
 Every scene has limits, and far from the origin steps may be too small for positions of 32 bits.
 
-$ kiln help limits | sed -n '20,$p'
+$ kiln help limits | sed -n '21,$p'
+1|
 1|A scene has at most these, whatever the limits:
 1|
 1|systems       64          Particle systems.
@@ -133,6 +134,10 @@ $ kiln help limits | sed -n '20,$p'
 1|winds         8           Files of wind.
 1|sources       2097152     Triangles, vertices and pixels that particles are born on.
 1|baked         8           Baked winds, of up to 12 forces each.
+1|gas           4           Domains of gas.
+1|gas_cells     268435456   Cells of all domains of gas, of which an edge has at most 1024.
+1|gas_sources   8           Sources of a domain of gas.
+1|substeps      16          Steps of gas in a step of the scene.
 1|steps         4194303     Steps of a run, warm-up included.
 1|
 1|Positions are 32-bit floats, so small steps far from the origin are rounded. Speeds are true to
@@ -154,3 +159,27 @@ $ cat >far.yaml <<END
 $ kiln check -q far.yaml && kiln render far.yaml -q -o none && kiln check -q far.yaml --set systems.slow.emit.speed=0.5
 2|kiln: warning: far.yaml:5:33: systems.slow.emit.speed: a step of particles at 0.01 m/s is 1e-05 m, and positions 100 m from the origin are multiples of 7.6e-06 m, so that their speed is up to 38 % off; at 1000 steps a second, speeds from 0.381 m/s on are true to 1 % there: lower simulation.rate, or move the scene to the origin
 2|kiln: warning: far.yaml:5:33: systems.slow.emit.speed: a step of particles at 0.01 m/s is 1e-05 m, and positions 100 m from the origin are multiples of 7.6e-06 m, so that their speed is up to 38 % off; at 1000 steps a second, speeds from 0.381 m/s on are true to 1 % there: lower simulation.rate, or move the scene to the origin
+
+Cells of gas, and their number times the steps of the gas.
+
+$ printf '%s\n' 'kiln: 1' 'gas: {a: {box: {size: [1, 1, 1]}, cells: 64, substeps: 2, sources: [{}]}}' >gas.yaml; kiln check -q gas.yaml --limits service
+$ kiln check -q gas.yaml --limits gas_cells=262143
+2|gas.yaml:2:6: gas: 262144 cells of gas, and the limit `gas_cells` is 262143
+= 8
+$ kiln check -q gas.yaml --limits gas_steps=156237823
+2|gas.yaml:2:6: gas: 156237824 cells of gas in all steps, and the limit `gas_steps` is 156237823
+= 8
+$ kiln check -q gas.yaml --limits gas_steps=156237824
+$ kiln check -q gas.yaml --set gas.a.cells=512 --limits service
+2|gas.yaml:2:6: gas: 134217728 cells of gas, and the limit `gas_cells` is 33554432
+= 8
+$ kiln check -q gas.yaml --set gas.a.cells=400 --limits memory=1GiB
+2|gas.yaml:2:6: gas: <n> of memory, and the limit `memory` is 1 GiB
+= 8
+$ kiln help limits | grep -E 'gas|substeps'
+1|gas_cells     33554432    Cells of all domains of gas.
+1|gas_steps     12 G        Cells of gas times its steps up to the last frame.
+1|gas           4           Domains of gas.
+1|gas_cells     268435456   Cells of all domains of gas, of which an edge has at most 1024.
+1|gas_sources   8           Sources of a domain of gas.
+1|substeps      16          Steps of gas in a step of the scene.

@@ -7,6 +7,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH COMMANDS
 1|.SS kiln render [\fIOPTION...\fR] \fISCENE...\fR
 1|.SS kiln bake [\fIOPTION...\fR] \fISCENE\fR
+1|.SS kiln export [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln plan [\fIOPTION...\fR] \fISCENE\fR
 1|.SS kiln join [\fIOPTION...\fR] \fIOUTPUT\fR
 1|.SS kiln encode [\fIOPTION...\fR] \fIFRAMES\fR
@@ -39,7 +40,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|356
+1|381
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION

@@ -136,6 +136,7 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  sort <ms>
 1|  lighting <ms>
 1|  backdrop <ms>
+1|  gas <ms>
 1|  particles <ms>
 1|  bloom <ms>
 1|  composite <ms>

@@ -9,6 +9,7 @@ $ kiln
 2|commands:
 2|  render           render scenes into images or videos
 2|  bake             save states of a run, from which other runs start
+2|  export           write gas as OpenVDB files, for other programs
 2|  plan             estimate what a clip costs, and divide it into tasks
 2|  join             make a clip of the parts that several tasks drew
 2|  encode           make a clip of images
@@ -63,6 +64,7 @@ $ kiln --help
 1|commands:
 1|  render           render scenes into images or videos
 1|  bake             save states of a run, from which other runs start
+1|  export           write gas as OpenVDB files, for other programs
 1|  plan             estimate what a clip costs, and divide it into tasks
 1|  join             make a clip of the parts that several tasks drew
 1|  encode           make a clip of images
@@ -413,11 +415,11 @@ $ kiln help check
 1|from standard input, whose files lie below the working directory. The output is
 1|a scene file that renders to the same pictures. Comments at its end tell what
 1|its meshes are (their size, whether they are closed, their joints, clips and
-1|materials, and what is left out of them), and the work of the whole clip: steps,
-1|particles at once, and memory. The memory is the most that rendering without
-1|OpenGL may take, encoders left out. After a wrong scene is reported, the other
-1|scenes are checked all the same. A scene that asks for more than --limits allow
-1|ends with exit code 8.
+1|materials, and what is left out of them), how large its domains of gas are, and
+1|the work of the whole clip: steps, particles at once, and memory. The memory is
+1|the most that rendering without OpenGL may take, encoders left out. After a
+1|wrong scene is reported, the other scenes are checked all the same. A scene that
+1|asks for more than --limits allow ends with exit code 8.
 1|
 1|      --size WxH              Size of the picture in pixels: --set
 1|                              output.size=[W, H].
