@@ -9,24 +9,12 @@
 #include "sim/gas/advect.h"
 #include "sim/gas/faces.h"
 #include "sim/gas/multigrid.h"
+#include "sim/gas/passes.h"
 
 /* How air that is at rest in the world moves in a domain: its velocity at the origin of the
  * domain's frame, m/s, and how it turns about it, rad/s. */
 struct gas_rest {
     float velocity[3], spin[3];
-};
-
-/* The passes of a step, for their times. */
-enum gas_timer {
-    GAS_TIMER_TRACE,
-    GAS_TIMER_REACT,
-    GAS_TIMER_SOURCES,
-    GAS_TIMER_WALLS,
-    GAS_TIMER_PUSH,
-    GAS_TIMER_DIVERGE,
-    GAS_TIMER_PRESSURE,
-    GAS_TIMER_PROJECT,
-    GAS_TIMERS,
 };
 
 struct gas_list {
@@ -53,30 +41,29 @@ struct gas_hooks {
 struct gas_solver {
     struct kiln_gas *gas;
     struct kiln_threads *threads;
-    const struct gas_advect *advect;
-    const struct gas_faces *faces;
-    const struct gas_multigrid *multigrid;
+    const struct gas_passes *passes;
     uint32_t window; /* of the gas, that the following are for */
     struct gas_levels levels;
     struct gas_list active, pushed; /* bricks of the window; of the latter, also their neighbours */
     struct gas_found *found;        /* of each active brick */
     double *added;                  /* smoke, of each active brick */
-    float *fastest;                 /* of each plane */
-    struct gas_workspace *spaces;   /* of each thread */
-    float *idle_changes;            /* memory of the changes of idle bricks; NULL: there are none */
     bool has_walls, blows;          /* as gas_solver_prepare was told */
     struct gas_rest rest;           /* of the air that a window did not have before */
     bool measures;                  /* times are taken */
     double seconds[GAS_TIMERS];     /* of processors */
     double left_over; /* part of the divergence that the last step left, if one was asked for */
+    /* The following are for passes on the host. */
+    const struct gas_advect *advect;
+    const struct gas_faces *faces;
+    const struct gas_multigrid *multigrid;
+    float *fastest;               /* of each plane */
+    struct gas_workspace *spaces; /* of each thread */
+    float *idle_changes;          /* memory of the changes of idle bricks; NULL: there are none */
 };
 
-/* Why a step failed. */
-enum gas_failure {
-    GAS_STEPPED,
-    GAS_NO_MEMORY,
-    GAS_STOPPED, /* the caller of the threads wants no more */
-    GAS_WRONG,   /* a number is not finite: gas_solver_find_wrong */
+enum {
+    GAS_IDLE_PLANES = 3,
+    GAS_MOST_CYCLES = 4, /* times those that were asked for */
 };
 
 /* Initialises a solver for a gas, which is borrowed, as the threads are. */
@@ -91,6 +78,9 @@ uint64_t gas_solver_bytes(struct kiln_gas_place cells, bool has_walls, bool blow
  * the regions. blows: forces also act where there is no gas. False when memory is short. */
 bool gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regions,
                         uint32_t region_count, bool has_walls, bool blows);
+
+/* Frees what is for the window. */
+void gas_solver_free_window(struct gas_solver *solver);
 
 /* Runs a substep. cycles: of the multigrid. residual: part of the divergence that may be left,
  * which takes up to four times as many cycles; 0: as it comes. */
