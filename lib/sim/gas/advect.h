@@ -25,7 +25,15 @@ struct gas_workspace {
     _Alignas(64) float spin[GAS_BRICK + 2][GAS_BRICK + 2][GAS_EDGE_ROW]; /* length of vorticity */
     _Alignas(64) float noise[3][GAS_STIR_EDGE][GAS_STIR_EDGE][GAS_STIR_ROW];
     _Alignas(64) float extras[GAS_EDGE_CELLS * GAS_CARRIED];
-    uint8_t wall[GAS_EDGE_CELLS + GAS_EDGE_ROW]; /* GAS_SOLID, GAS_SHUT_*: of a block */
+    uint8_t wall[GAS_EDGE_CELLS];            /* GAS_SOLID, GAS_SHUT_*: of a block */
+    uint8_t near_wall[GAS_BRICK][GAS_BRICK]; /* z, y: a bit for each cell of the row */
+};
+
+/* Holds points of curl noise, and the noise there. */
+struct gas_points {
+    uint32_t count;
+    _Alignas(64) float place[3][GAS_BRICK_CELLS];
+    _Alignas(64) float noise[3][GAS_BRICK_CELLS];
 };
 
 /* Says what a brick has at the end of a step. */
@@ -50,6 +58,8 @@ struct gas_advect {
                               struct gas_workspace *space);
     /* Fills the change of an idle brick: what forces do to its air. */
     void (*blow)(const struct gas_pass *pass, gas_brick_place at, struct gas_workspace *space);
+    /* Computes the noise of points. */
+    void (*noise)(struct gas_points *points, uint32_t seed, uint32_t octaves);
 };
 KILN_SIMD_DECLARE(const struct gas_advect, kiln_gas_advect);
 

@@ -74,19 +74,18 @@ static struct reach find_ways(const struct kiln_gas_step *step, struct gas_works
 }
 
 /* Traces the cells of a brick that are near walls. */
-static void trace_beside_walls(struct gas_workspace *space, float *traced)
+static void trace_beside_walls(const struct gas_workspace *space, const struct rows *rows,
+                               float *traced)
 {
-    for (int32_t i = 0; i < GAS_BRICK_CELLS; i++) {
-        const int32_t x = i % GAS_BRICK, y = i / GAS_BRICK % GAS_BRICK;
-        const int32_t z = i / (GAS_BRICK * GAS_BRICK), cell = wall_at(x, y, z);
-        if (!is_near_wall(space->wall, x, y, z))
-            continue;
-        const float way[3] = {space->way[0][z][y][x], space->way[1][z][y][x],
-                              space->way[2][z][y][x]};
-        const struct wall_place from = wall_trace(space->wall, cell, way);
-        wall_mix(space->wall, space->now, GAS_TRACED, from,
-                 traced + traced_row(i / GAS_BRICK) + (ptrdiff_t)x * GAS_TRACED);
-    }
+    for (int32_t z = 0; z < GAS_BRICK; z++)
+        for (int32_t y = 0; y < GAS_BRICK; y++)
+            for (int32_t x = 0; space->near_wall[z][y] >> x; x++)
+                if (is_near_wall(space, x, y, z)) {
+                    const struct wall_mix mix = wall_mix_of(space, x, y, z);
+                    mix_beside_walls(rows, &mix,
+                                     traced + traced_row(z * GAS_BRICK + y) +
+                                         (ptrdiff_t)x * GAS_TRACED);
+                }
 }
 
 /* Gives the first traced cell of each row to the brick to the left, whose rows end with it. A brick
@@ -122,10 +121,8 @@ static void trace_brick(const struct gas_pass *pass, gas_brick_place at,
     struct rows rows;
     around_of(&around, pass, at);
     find_flow(gas, &around, space, 1);
-    struct reach reach = find_ways(pass->step, space);
-    if (around.walls)
-        reach = (struct reach){BELOW, BELOW, BELOW};
-    find_rows(gas, &around, false, space, reach, around.walls, &rows);
+    const struct reach reach = find_ways(pass->step, space);
+    find_rows(gas, &around, false, space, reach, &rows);
     for (int32_t z = 0; z < GAS_BRICK; z++)
         for (int32_t y = 0; y < GAS_BRICK; y++) {
             float *to = brick->traced + traced_row(z * GAS_BRICK + y);
@@ -135,8 +132,8 @@ static void trace_brick(const struct gas_pass *pass, gas_brick_place at,
                 eight_store(to, mixed(rows.of + p.row[i], p.at[i], &p.x[i], &p.y[i], &p.z[i]));
         }
     if (around.walls) {
-        gather_walls(pass, &around, at, space);
-        trace_beside_walls(space, brick->traced);
+        gather_walls(&around, space);
+        trace_beside_walls(space, &rows, brick->traced);
     }
     share_ends(pass, at, brick);
     if (brick->extras)
@@ -316,16 +313,19 @@ SIMD void correct_row(const struct gas_workspace *space, const struct rows *now,
 
 /* Beside walls the scheme is not corrected, and nothing is in a solid. Returns a bit for each cell
  * of the row that is in one. */
-static uint32_t keep_beside_walls(const struct gas_workspace *space, int32_t y, int32_t z,
+static uint32_t keep_beside_walls(const struct gas_workspace *space,
+                                  const struct kiln_gas_brick *brick, int32_t y, int32_t z,
                                   float cells[GAS_BRICK * GAS_TRACED])
 {
+    const float *traced = brick->traced + traced_row(z * GAS_BRICK + y);
     uint32_t solid = 0;
-    for (int32_t x = 0; x < GAS_BRICK; x++) {
-        const ptrdiff_t at = wall_at(x, y, z);
-        float *cell = cells + (ptrdiff_t)x * GAS_TRACED;
-        if (is_near_wall(space->wall, x, y, z))
-            memcpy(cell, space->traced + at * GAS_TRACED, GAS_TRACED * sizeof *cell);
-        if (!(space->wall[at] & GAS_SOLID))
+    for (int32_t x = 0; space->near_wall[z][y] >> x; x++) {
+        if (!is_near_wall(space, x, y, z))
+            continue;
+        const ptrdiff_t place = (ptrdiff_t)x * GAS_TRACED;
+        float *cell = cells + place;
+        copy_eight(cell, traced + place);
+        if (!(space->wall[wall_at(x, y, z)] & GAS_SOLID))
             continue;
         solid |= 1u << x;
         memset(cell + GAS_CARRIED_AT, 0, GAS_CARRIED * sizeof *cell);
@@ -426,13 +426,11 @@ static struct gas_found react(const struct gas_pass *pass, gas_brick_place at,
     struct rows now, traced;
     around_of(&around, pass, at);
     find_flow(gas, &around, space, cells_around);
-    struct reach reach = find_ways(pass->step, space);
+    const struct reach reach = find_ways(pass->step, space);
+    find_rows(gas, &around, false, space, reach, &now);
+    find_rows(gas, &around, true, space, reach, &traced);
     if (around.walls)
-        reach = (struct reach){BELOW, BELOW, BELOW};
-    find_rows(gas, &around, false, space, reach, around.walls, &now);
-    find_rows(gas, &around, true, space, reach, around.walls, &traced);
-    if (around.walls)
-        gather_walls(pass, &around, at, space);
+        gather_walls(&around, space);
     if (confined)
         spins(space);
     if (pass->stir.strength > 0.0f)
@@ -446,7 +444,7 @@ static struct gas_found react(const struct gas_pass *pass, gas_brick_place at,
             float *expansions = pass->expansion + gas_row_of_window(gas, at, y, z);
             correct_row(space, &now, &traced, brick, &limits, pass->step->cells_a_velocity, y, z,
                         cells);
-            const uint32_t solid = around.walls ? keep_beside_walls(space, y, z, cells) : 0;
+            const uint32_t solid = around.walls ? keep_beside_walls(space, brick, y, z, cells) : 0;
             find_pushes(pass, at, space, y, z, &pushes);
             react_row(pass, space, brick, expansions, cells, &pushes, y, z, &sums);
             if (solid)
@@ -507,4 +505,5 @@ const struct gas_advect KILN_SIMD_NAME(kiln_gas_advect) = {
     .trace = trace_brick,
     .react = react_brick,
     .blow = blow_brick,
+    .noise = noise_of_points,
 };

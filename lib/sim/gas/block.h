@@ -54,6 +54,7 @@ static struct axis axis_of(int32_t brick, int32_t count, bool closed_below, bool
 struct around {
     struct axis x, y, z;
     const struct kiln_gas_brick *brick[3][3][3]; /* NULL beyond the window */
+    const struct gas_wall *wall[3][3][3];        /* NULL where no solid is */
     bool walls;                                  /* solids reach one of them */
 };
 
@@ -74,8 +75,8 @@ static void around_of(struct around *around, const struct gas_pass *pass, gas_br
                                     b.y < count.y && b.z < count.z;
                 const size_t i = inside ? kiln_gas_brick_index(gas, b.x, b.y, b.z) : 0;
                 around->brick[z][y][x] = inside ? &gas->brick[i] : NULL;
-                if (inside && pass->walls && pass->walls[i])
-                    around->walls = true;
+                around->wall[z][y][x] = inside && pass->walls ? pass->walls[i] : NULL;
+                around->walls = around->walls || around->wall[z][y][x];
             }
 }
 
@@ -263,9 +264,9 @@ static void gather_cells(const struct kiln_gas *gas, const struct around *around
 }
 
 /* Fills the table of a block's joined cells, or of its traced ones, whose table needs that of the
- * former. all: every row is brought together. */
+ * former. */
 static void find_rows(const struct kiln_gas *gas, const struct around *around, bool traced,
-                      struct gas_workspace *space, struct reach reach, bool all, struct rows *rows)
+                      struct gas_workspace *space, struct reach reach, struct rows *rows)
 {
     /* cells of a block in each brick, and the first one of the next brick */
     static const int32_t begin[3] = {0, BELOW, BELOW + GAS_BRICK};
@@ -278,7 +279,7 @@ static void find_rows(const struct kiln_gas *gas, const struct around *around, b
             const float **entry = &rows->of[z * ON + y * UP];
             for (int i = 0; i < 3; i++) {
                 const struct kiln_gas_brick *brick = row.brick[i];
-                if (brick && brick->joined && !row.open && !all) {
+                if (brick && brick->joined && !row.open) {
                     entry[i] = (traced ? brick->traced : brick->joined) + row.cells;
                     continue;
                 }

@@ -45,6 +45,16 @@ SIMD void mix_extras(const float *extras, const struct places *places, int i, fl
     }
 }
 
+/* Mixes a group of extra floats from the cells on a place's side of a wall. */
+static void mix_extras_beside_walls(const float *extras, const struct wall_mix *mix, float *to)
+{
+    float sum[GAS_CARRIED] = {0};
+    for (int i = 0; i < 8; i++)
+        for (int c = 0; c < GAS_CARRIED; c++)
+            sum[c] = sum[c] + mix->weight[i] * extras[(ptrdiff_t)mix->cell[i] * GAS_CARRIED + c];
+    memcpy(to, sum, sizeof sum);
+}
+
 /* Traces the extra floats of a brick. Cells that remember where their gas came from add their own
  * way. */
 static void trace_extras(const struct gas_pass *pass, const struct around *around,
@@ -61,15 +71,14 @@ static void trace_extras(const struct gas_pass *pass, const struct around *aroun
                 struct places places;
                 places_from(&places, space, y, z);
                 for (int x = 0; x < GAS_BRICK; x++, to += GAS_CARRIED) {
-                    const float way[3] = {space->way[0][z][y][x], space->way[1][z][y][x],
-                                          space->way[2][z][y][x]};
-                    if (around->walls && is_near_wall(space->wall, x, y, z))
-                        wall_mix(space->wall, space->extras, GAS_CARRIED,
-                                 wall_trace(space->wall, wall_at(x, y, z), way), to);
-                    else
+                    if (around->walls && is_near_wall(space, x, y, z)) {
+                        const struct wall_mix mix = wall_mix_of(space, x, y, z);
+                        mix_extras_beside_walls(space->extras, &mix, to);
+                    } else {
                         mix_extras(space->extras, &places, x, to);
+                    }
                     for (int c = 0; c < 3 && is_way; c++)
-                        to[c] = to[c] + way[c] * cell;
+                        to[c] = to[c] + space->way[c][z][y][x] * cell;
                 }
             }
     }

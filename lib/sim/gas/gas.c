@@ -307,7 +307,7 @@ static bool fill_lattice(const struct run *run, struct gas_lattice *lattice)
 static double add_sources(void *context, const struct gas_pass *pass, gas_brick_place at, bool *any)
 {
     const struct run *run = context;
-    return gas_sources_add(&run->domain->sources, pass, at, any);
+    return gas_sources_add(&run->domain->sources, pass, run->domain->solver.advect, at, any);
 }
 
 /* Returns the clip time after a part of the step. */

@@ -12,7 +12,8 @@
 #include "shared/particle.h"
 #include "shared/random.h"
 
-#define NOISE_CONTRAST 0.9f
+#define NOISE_CONTRAST           0.9f
+#define NOISE_OCTAVES_OF_SOURCES 3u
 
 void gas_sources_init(struct gas_sources *sources, const struct kiln_scene *scene, uint32_t domain)
 {
@@ -221,18 +222,6 @@ void gas_sources_set_time(struct gas_sources *sources, float dt)
 
 /* ---- cells ----------------------------------------------------------------------------------- */
 
-/* Returns the part of a source's values that noise leaves at a place of the domain. */
-static float noise_left(const struct gas_source *source, float3 p)
-{
-    if (source->noise <= 0.0f)
-        return 1.0f;
-    const float3 scaled = float3_scale(p, source->noise_scale);
-    const float3 at = FLOAT3(scaled.x, scaled.y - source->noise_rise, scaled.z);
-    const float3 n = noise_curl(at, source->seed, 3u);
-    const float pattern = exact_clamp(0.5f + NOISE_CONTRAST * n.x, 0.0f, 1.0f);
-    return 1.0f - source->noise * (1.0f - pattern);
-}
-
 static float raised(float now, float wanted, float part)
 {
     return now < wanted ? now + (wanted - now) * part : now;
@@ -273,30 +262,93 @@ static void add_to_cell(const struct gas_source *source, const struct cell *cell
     }
 }
 
-/* Returns how far a cell lies within a source, and fills in the velocity there. */
-static float within_of(const struct gas_source *source, float3 p, size_t brick, int32_t cell,
-                       float3 *velocity)
+/* Returns how far a cell lies within a source, before noise. */
+static float within_of(const struct gas_source *source, float3 p, size_t brick, int32_t cell)
 {
-    float within;
-    *velocity = source->velocity;
     if (source->splats) {
         const uint32_t number = source->splats->number[brick];
-        if (number == 0)
-            return 0.0f;
-        const float *sum = source->splats->brick[number - 1][cell];
-        const float fewer = exact_rcp(sum[3]);
-        within = exact_min(sum[3], 1.0f);
-        *velocity = float3_add_scaled(source->velocity, FLOAT3(sum[0], sum[1], sum[2]), fewer);
-    } else {
-        const float far = distance_to(source, gas_mapped(&source->to_shape, p)) * source->metres;
-        within = exact_clamp(1.0f - exact_div(far, source->reach), 0.0f, 1.0f);
-        if (source->outward != 0.0f) {
-            const float3 out = float3_sub(p, source->center);
-            const float3 way = float3_normalize(out, FLOAT3(0.0f, 1.0f, 0.0f));
-            *velocity = float3_add_scaled(source->velocity, way, source->outward);
-        }
+        return number == 0 ? 0.0f : exact_min(source->splats->brick[number - 1][cell][3], 1.0f);
     }
-    return within > 0.0f ? within * noise_left(source, p) : 0.0f;
+    const float far = distance_to(source, gas_mapped(&source->to_shape, p)) * source->metres;
+    return exact_clamp(1.0f - exact_div(far, source->reach), 0.0f, 1.0f);
+}
+
+/* Returns the velocity that a source blows with in a cell that it reaches. */
+static float3 velocity_of(const struct gas_source *source, float3 p, size_t brick, int32_t cell)
+{
+    if (source->splats) {
+        const float *sum = source->splats->brick[source->splats->number[brick] - 1][cell];
+        return float3_add_scaled(source->velocity, FLOAT3(sum[0], sum[1], sum[2]),
+                                 exact_rcp(sum[3]));
+    }
+    if (source->outward == 0.0f)
+        return source->velocity;
+    const float3 out = float3_sub(p, source->center);
+    const float3 way = float3_normalize(out, FLOAT3(0.0f, 1.0f, 0.0f));
+    return float3_add_scaled(source->velocity, way, source->outward);
+}
+
+/* Holds the cells of a brick that a source reaches. */
+struct reached {
+    struct gas_points points; /* their centres in the domain, m */
+    float within[GAS_BRICK_CELLS];
+    int16_t cell[GAS_BRICK_CELLS];
+};
+
+static float3 point_of(const struct gas_points *points, uint32_t i)
+{
+    return FLOAT3(points->place[0][i], points->place[1][i], points->place[2][i]);
+}
+
+static void set_point(struct gas_points *points, uint32_t i, float3 p)
+{
+    points->place[0][i] = p.x;
+    points->place[1][i] = p.y;
+    points->place[2][i] = p.z;
+}
+
+/* Finds the cells of a brick that a source reaches. first: cell of the brick in the domain. wall:
+ * of the brick, or NULL. */
+static void find_reached(const struct gas_source *source, const struct kiln_gas_shape *shape,
+                         struct kiln_gas_place first, const struct gas_wall *wall,
+                         struct reached *reached)
+{
+    const size_t number = gas_brick_number(shape, first);
+    uint32_t count = 0;
+    for (int32_t i = 0; i < GAS_BRICK_CELLS; i++) {
+        const int32_t x = i % GAS_BRICK, y = i / GAS_BRICK % GAS_BRICK;
+        const int32_t z = i / (GAS_BRICK * GAS_BRICK);
+        const float3 p = FLOAT3(shape->corner.x + ((float)(first.x + x) + 0.5f) * shape->cell,
+                                shape->corner.y + ((float)(first.y + y) + 0.5f) * shape->cell,
+                                shape->corner.z + ((float)(first.z + z) + 0.5f) * shape->cell);
+        if (wall && wall->cell[i] & GAS_SOLID)
+            continue;
+        const float within = within_of(source, p, number, i);
+        if (within <= 0.0f)
+            continue;
+        set_point(&reached->points, count, p);
+        reached->within[count] = within;
+        reached->cell[count] = (int16_t)i;
+        count++;
+    }
+    reached->points.count = count;
+}
+
+/* Takes off what noise leaves out. */
+static void weaken(const struct gas_source *source, const struct gas_advect *kernels,
+                   struct reached *reached)
+{
+    struct gas_points at;
+    at.count = reached->points.count;
+    for (uint32_t i = 0; i < at.count; i++) {
+        const float3 p = float3_scale(point_of(&reached->points, i), source->noise_scale);
+        set_point(&at, i, FLOAT3(p.x, p.y - source->noise_rise, p.z));
+    }
+    kernels->noise(&at, source->seed, NOISE_OCTAVES_OF_SOURCES);
+    for (uint32_t i = 0; i < at.count; i++) {
+        const float pattern = exact_clamp(0.5f + NOISE_CONTRAST * at.noise[0][i], 0.0f, 1.0f);
+        reached->within[i] = reached->within[i] * (1.0f - source->noise * (1.0f - pattern));
+    }
 }
 
 static bool reaches(const struct gas_region *region, struct kiln_gas_place brick)
@@ -306,30 +358,26 @@ static bool reaches(const struct gas_region *region, struct kiln_gas_place brick
 }
 
 static double add_source(const struct gas_source *source, const struct gas_pass *pass,
-                         gas_brick_place at, bool *any)
+                         const struct gas_advect *kernels, gas_brick_place at, bool *any)
 {
     struct kiln_gas *gas = pass->gas;
     const struct kiln_gas_shape *shape = &gas->shape;
-    struct kiln_gas_brick *brick = &gas->brick[kiln_gas_brick_index(gas, at.x, at.y, at.z)];
-    const struct gas_wall *wall =
-        pass->walls ? pass->walls[kiln_gas_brick_index(gas, at.x, at.y, at.z)] : NULL;
+    const size_t index = kiln_gas_brick_index(gas, at.x, at.y, at.z);
+    struct kiln_gas_brick *brick = &gas->brick[index];
     const struct kiln_gas_place first = {gas->at.x + at.x * GAS_BRICK, gas->at.y + at.y * GAS_BRICK,
                                          gas->at.z + at.z * GAS_BRICK};
-    const size_t number = gas_brick_number(shape, first);
+    struct reached reached;
+    find_reached(source, shape, first, pass->walls ? pass->walls[index] : NULL, &reached);
+    if (source->noise > 0.0f)
+        weaken(source, kernels, &reached);
     double added = 0.0;
-    for (int32_t i = 0; i < GAS_BRICK_CELLS; i++) {
-        const int32_t x = i % GAS_BRICK, y = i / GAS_BRICK % GAS_BRICK;
-        const int32_t z = i / (GAS_BRICK * GAS_BRICK);
-        const float3 p = FLOAT3(shape->corner.x + ((float)(first.x + x) + 0.5f) * shape->cell,
-                                shape->corner.y + ((float)(first.y + y) + 0.5f) * shape->cell,
-                                shape->corner.z + ((float)(first.z + z) + 0.5f) * shape->cell);
-        const ptrdiff_t face = gas_row_of_window(gas, at, y, z) + x;
+    for (uint32_t k = 0; k < reached.points.count; k++) {
+        const int32_t i = reached.cell[k];
         const ptrdiff_t carried = (ptrdiff_t)i * GAS_CARRIED;
-        float3 velocity;
-        if (wall && wall->cell[i] & GAS_SOLID)
-            continue;
-        const float within = within_of(source, p, number, i, &velocity);
-        if (within <= 0.0f)
+        const ptrdiff_t face =
+            gas_row_of_window(gas, at, i / GAS_BRICK % GAS_BRICK, i / (GAS_BRICK * GAS_BRICK)) +
+            i % GAS_BRICK;
+        if (reached.within[k] <= 0.0f)
             continue;
         *any = true;
         const struct cell cell = {
@@ -341,21 +389,23 @@ static double add_source(const struct gas_source *source, const struct gas_pass 
                            0.5f * (gas->faces[2][face] + gas->faces[2][face + gas->plane])),
         };
         const float before = cell.carried[GAS_SMOKE];
-        add_to_cell(source, &cell, within, velocity);
+        add_to_cell(
+            source, &cell, reached.within[k],
+            velocity_of(source, point_of(&reached.points, k), gas_brick_number(shape, first), i));
         added += (double)cell.carried[GAS_SMOKE] - (double)before;
     }
     return added;
 }
 
-double gas_sources_add(void *context, const struct gas_pass *pass, gas_brick_place at, bool *any)
+double gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
+                       const struct gas_advect *kernels, gas_brick_place at, bool *any)
 {
-    const struct gas_sources *sources = context;
     const struct kiln_gas *gas = pass->gas;
     const struct kiln_gas_place brick = {gas->at.x / GAS_BRICK + at.x, gas->at.y / GAS_BRICK + at.y,
                                          gas->at.z / GAS_BRICK + at.z};
     double added = 0.0;
     for (uint32_t i = 0; i < sources->count; i++)
         if (reaches(&sources->source[i].region, brick))
-            added += add_source(&sources->source[i], pass, at, any);
+            added += add_source(&sources->source[i], pass, kernels, at, any);
     return added;
 }

@@ -5,6 +5,7 @@
 
 #include "particles/pool.h"
 #include "scene/scene.h"
+#include "sim/gas/advect.h"
 #include "sim/gas/splats.h"
 
 /* A source at a time of a step. */
@@ -46,7 +47,9 @@ bool gas_sources_set(struct gas_sources *sources, struct kiln_pool *pool, uint32
 /* Fills in what depends on the length of a substep, s. */
 void gas_sources_set_time(struct gas_sources *sources, float dt);
 
-/* Is the hook `add` of the solver; context: a struct gas_sources. */
-double gas_sources_add(void *context, const struct gas_pass *pass, gas_brick_place at, bool *any);
+/* Adds all sources to `now` and `change` of a brick, and returns how much smoke it added. Sets *any
+ * if a source reaches a cell. */
+double gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
+                       const struct gas_advect *kernels, gas_brick_place at, bool *any);
 
 #endif

@@ -8,33 +8,46 @@
 #include "shared/noise.h"
 #include "sim/gas/block.h"
 
-enum { STIR_POINTS = GAS_STIR_EDGE * GAS_STIR_EDGE * GAS_STIR_EDGE, STIR_PADDED = 128 };
+enum { STIR_POINTS = GAS_STIR_EDGE * GAS_STIR_EDGE * GAS_STIR_EDGE };
+
+/* Computes the noise of points. Sixteen at a time fill every vector. */
+static void noise_of_points(struct gas_points *points, uint32_t seed, uint32_t octaves)
+{
+    const uint32_t padded = (points->count + 15u) & ~15u;
+    for (int c = 0; c < 3; c++) {
+        memset(points->noise[c], 0, padded * sizeof(float));
+        for (uint32_t i = points->count; i < padded; i++)
+            points->place[c][i] = 0.0f;
+    }
+    for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++)
+        for (uint32_t i = 0; i < padded; i++) {
+            const float3 before = {points->noise[0][i], points->noise[1][i], points->noise[2][i]};
+            const float3 p = {points->place[0][i], points->place[1][i], points->place[2][i]};
+            const float3 after = noise_curl_add(before, p, seed, octave);
+            points->noise[0][i] = after.x;
+            points->noise[1][i] = after.y;
+            points->noise[2][i] = after.z;
+        }
+}
 
 /* Computes the noise at a brick's points of the lattice. at: of the brick in the domain. */
 static void find_noise(const struct gas_stir *stir, struct kiln_gas_place at,
                        struct gas_workspace *space)
 {
-    float place[3][STIR_PADDED] = {{0}}, sum[3][STIR_PADDED] = {{0}};
+    struct gas_points points;
+    points.count = STIR_POINTS;
     for (int32_t i = 0; i < STIR_POINTS; i++) {
         const int32_t x = i % GAS_STIR_EDGE, y = i / GAS_STIR_EDGE % GAS_STIR_EDGE;
         const int32_t z = i / (GAS_STIR_EDGE * GAS_STIR_EDGE);
-        place[0][i] = (float)(at.x + x * GAS_LATTICE) * stir->scale;
-        place[1][i] = (float)(at.y + y * GAS_LATTICE) * stir->scale - stir->rise;
-        place[2][i] = (float)(at.z + z * GAS_LATTICE) * stir->scale;
+        points.place[0][i] = (float)(at.x + x * GAS_LATTICE) * stir->scale;
+        points.place[1][i] = (float)(at.y + y * GAS_LATTICE) * stir->scale - stir->rise;
+        points.place[2][i] = (float)(at.z + z * GAS_LATTICE) * stir->scale;
     }
-    for (uint32_t octave = 0; octave < stir->octaves && octave < NOISE_OCTAVES; octave++)
-        for (int32_t i = 0; i < STIR_PADDED; i++) {
-            const float3 before = {sum[0][i], sum[1][i], sum[2][i]};
-            const float3 p = {place[0][i], place[1][i], place[2][i]};
-            const float3 after = noise_curl_add(before, p, stir->seed, octave);
-            sum[0][i] = after.x;
-            sum[1][i] = after.y;
-            sum[2][i] = after.z;
-        }
+    noise_of_points(&points, stir->seed, stir->octaves);
     for (int c = 0; c < 3; c++)
         for (int32_t i = 0; i < STIR_POINTS; i++)
             space->noise[c][i / (GAS_STIR_EDGE * GAS_STIR_EDGE)][i / GAS_STIR_EDGE % GAS_STIR_EDGE]
-                        [i % GAS_STIR_EDGE] = sum[c][i];
+                        [i % GAS_STIR_EDGE] = points.noise[c][i];
 }
 
 /* Mixes the values at the five points of a row of a lattice for the eight cells between them. Two

@@ -1,7 +1,7 @@
 /* Traces gas beside solids: its way ends at a face that is shut, and a value is mixed from the
  * cells on its own side alone (Guendelman et al., "Coupling Water and Smoke to Thin Deformable and
  * Rigid Shells", 2005). Only advect_simd.c includes this header. It works cell by cell, since few
- * bricks have solids. */
+ * cells are near solids. */
 #ifndef KILN_SIM_GAS_WALLS_H
 #define KILN_SIM_GAS_WALLS_H
 
@@ -12,47 +12,63 @@ enum { WALL_ROW = GAS_EDGE, WALL_PLANE = GAS_EDGE * GAS_EDGE };
 static const int32_t WALL_STEP[3] = {1, WALL_ROW, WALL_PLANE};
 static const uint8_t WALL_SHUT[3] = {GAS_SHUT_X, GAS_SHUT_Y, GAS_SHUT_Z};
 
-/* Fills the bits of a block's cells. There are no solids beyond the window. */
-static void gather_walls(const struct gas_pass *pass, const struct around *around,
-                         gas_brick_place at, struct gas_workspace *space)
-{
-    const struct kiln_gas_place count = pass->gas->bricks;
-    uint8_t *to = space->wall;
-    for (int32_t z = 0; z < GAS_EDGE; z++)
-        for (int32_t y = 0; y < GAS_EDGE; y++)
-            for (int32_t x = 0; x < GAS_EDGE; x++, to++) {
-                const struct kiln_gas_place b = {at.x + around->x.brick[x] - 1,
-                                                 at.y + around->y.brick[y] - 1,
-                                                 at.z + around->z.brick[z] - 1};
-                const struct gas_wall *wall =
-                    b.x < count.x && b.y < count.y && b.z < count.z
-                        ? pass->walls[kiln_gas_brick_index(pass->gas, b.x, b.y, b.z)]
-                        : NULL;
-                const int32_t cell =
-                    (around->z.cell[z] * GAS_BRICK + around->y.cell[y]) * GAS_BRICK +
-                    around->x.cell[x];
-                *to = wall ? wall->cell[cell] : 0;
-            }
-}
-
 /* Returns the place of a brick's cell in its block. */
 static int32_t wall_at(int32_t x, int32_t y, int32_t z)
 {
     return (z + BELOW) * WALL_PLANE + (y + BELOW) * WALL_ROW + x + BELOW;
 }
 
-/* Returns whether gas of a cell may come from or go to cells whose faces are shut. */
-static bool is_near_wall(const uint8_t *wall, int32_t x, int32_t y, int32_t z)
+/* Fills the bits of a row of a block's cells. Returns a bit for each cell that has some. */
+static uint32_t gather_wall_row(const struct around *around, int32_t y, int32_t z, uint8_t *to)
 {
-    const int32_t at = wall_at(x, y, z) - BELOW * (WALL_PLANE + WALL_ROW + 1);
-    for (int32_t k = 0; k < 2 * BELOW + 2; k++)
-        for (int32_t j = 0; j < 2 * BELOW + 2; j++)
-            for (int32_t i = 0; i < 2 * BELOW + 2; i++) {
-                const int32_t cell = at + k * WALL_PLANE + j * WALL_ROW + i;
-                if (z + k < GAS_EDGE && y + j < GAS_EDGE && x + i < GAS_EDGE && wall[cell])
-                    return true;
-            }
-    return false;
+    const struct gas_wall *const *walls = around->wall[around->z.brick[z]][around->y.brick[y]];
+    const int32_t first = (around->z.cell[z] * GAS_BRICK + around->y.cell[y]) * GAS_BRICK;
+    uint32_t some = 0;
+    memset(to, 0, GAS_EDGE);
+    if (!walls[0] && !walls[1] && !walls[2])
+        return 0;
+    for (int32_t x = 0; x < GAS_EDGE; x++) {
+        const struct gas_wall *wall = walls[around->x.brick[x]];
+        to[x] = wall ? wall->cell[first + around->x.cell[x]] : 0;
+        some |= (uint32_t)(to[x] != 0) << x;
+    }
+    return some;
+}
+
+/* Marks cells of the brick whose gas may come from or go to cells with faces that are shut. some: a
+ * bit for each cell of the block's rows that has any. */
+static void find_near_walls(uint32_t some[GAS_EDGE][GAS_EDGE], struct gas_workspace *space)
+{
+    enum { SPAN = 2 * BELOW + 2 };
+    uint32_t wide[GAS_EDGE][GAS_BRICK] = {{0}}; /* of cells that are near along x and y */
+    for (int32_t z = 0; z < GAS_EDGE; z++)
+        for (int32_t y = 0; y < GAS_BRICK; y++)
+            for (int32_t j = 0; j < SPAN; j++)
+                for (int32_t i = 0; i < SPAN; i++)
+                    wide[z][y] |= some[z][y + j] >> i;
+    for (int32_t z = 0; z < GAS_BRICK; z++)
+        for (int32_t y = 0; y < GAS_BRICK; y++) {
+            uint32_t near = 0;
+            for (int32_t k = 0; k < SPAN; k++)
+                near |= wide[z + k][y];
+            space->near_wall[z][y] = (uint8_t)near;
+        }
+}
+
+/* Fills the bits of a block's cells, and finds the cells of its brick that are near walls. Beyond
+ * the window, they are those of the nearest cell. */
+static void gather_walls(const struct around *around, struct gas_workspace *space)
+{
+    uint32_t some[GAS_EDGE][GAS_EDGE];
+    for (int32_t z = 0; z < GAS_EDGE; z++)
+        for (int32_t y = 0; y < GAS_EDGE; y++)
+            some[z][y] = gather_wall_row(around, y, z, space->wall + z * WALL_PLANE + y * WALL_ROW);
+    find_near_walls(some, space);
+}
+
+static bool is_near_wall(const struct gas_workspace *space, int32_t x, int32_t y, int32_t z)
+{
+    return space->near_wall[z][y] >> x & 1;
 }
 
 /* Returns whether the face between a cell and the next one on an axis is shut. way: 1 or -1. */
@@ -101,12 +117,16 @@ static struct wall_place wall_trace(const uint8_t *wall, int32_t cell, const flo
     return p;
 }
 
-/* Mixes floats of the cells around a place that are on its side. `floats` a cell of `width`. */
-static void wall_mix(const uint8_t *wall, const float *floats, int width, struct wall_place p,
-                     float *to)
+/* Says what a value at a place is mixed from. */
+struct wall_mix {
+    int32_t cell[8]; /* of the block */
+    float weight[8];
+};
+
+/* Takes the eight cells around a place; for one that is not on its side, that of the place. */
+static struct wall_mix wall_mix_at(const uint8_t *wall, struct wall_place p)
 {
-    const float *own = floats + (ptrdiff_t)p.cell * width;
-    float sum[GAS_TRACED] = {0};
+    struct wall_mix mix;
     const int32_t way[3] = {p.off[0] < 0.0f ? -1 : 1, p.off[1] < 0.0f ? -1 : 1,
                             p.off[2] < 0.0f ? -1 : 1};
     for (int corner = 0; corner < 8; corner++) {
@@ -120,11 +140,39 @@ static void wall_mix(const uint8_t *wall, const float *floats, int width, struct
             cell += taken[axis] * WALL_STEP[axis];
         }
         const bool mixes = weight > 0.0f && is_seen(wall, p.cell, taken);
-        const float *from = mixes ? floats + (ptrdiff_t)cell * width : own;
-        for (int i = 0; i < width; i++)
-            sum[i] = sum[i] + weight * from[i];
+        mix.cell[corner] = mixes ? cell : p.cell;
+        mix.weight[corner] = weight;
     }
-    memcpy(to, sum, (size_t)width * sizeof *sum);
+    return mix;
+}
+
+/* Returns what the gas of a brick's cell is mixed from, after its way. */
+static struct wall_mix wall_mix_of(const struct gas_workspace *space, int32_t x, int32_t y,
+                                   int32_t z)
+{
+    const float way[3] = {space->way[0][z][y][x], space->way[1][z][y][x], space->way[2][z][y][x]};
+    return wall_mix_at(space->wall, wall_trace(space->wall, wall_at(x, y, z), way));
+}
+
+/* Returns a cell of a block by its number there. */
+static const float *cell_of(const struct rows *rows, int32_t cell)
+{
+    const int32_t z = cell / WALL_PLANE, y = cell / WALL_ROW % GAS_EDGE;
+    const int32_t right = cell % GAS_EDGE - BELOW + GAS_BRICK;
+    return rows->of[z * ON + y * UP + right / GAS_BRICK] +
+           (ptrdiff_t)(right % GAS_BRICK) * GAS_TRACED;
+}
+
+/* Mixes the floats of a cell. */
+static void mix_beside_walls(const struct rows *rows, const struct wall_mix *mix, float *to)
+{
+    struct eight sum = {{{0}}};
+    for (int i = 0; i < 8; i++) {
+        const struct eight from = eight_load(cell_of(rows, mix->cell[i]));
+        EIGHT_EACH(k)
+        sum.part[k] = sum.part[k] + mix->weight[i] * from.part[k];
+    }
+    eight_store(to, sum);
 }
 
 #endif
