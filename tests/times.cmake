@@ -23,7 +23,7 @@ set(kiln_test_times
         gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
         gpu.small_billboards gpu.solid_lamps gpu.sort_spread gpu.sort_trial gpu.spheres gpu.stages gpu.suite gpu.update
         hostile_slow_helper mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.planted tree.size unit.bounces
-        unit.depth_maps unit.fragments unit.gas_matter unit.gas_solids unit.gas_states unit.image unit.output unit.parts unit.scene_place unit.sort unit.sources unit.state unit.stopping
+        unit.depth_maps unit.fragments unit.gas_matter unit.gas_solids unit.gas_sources unit.gas_states unit.image unit.output unit.parts unit.scene_place unit.sort unit.sources unit.state unit.stopping
         unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"
     "5 tree.conversions completion.zsh all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
         gpu.backdrop_shapes gpu.occlusion gpu.particles gpu.rasters hostile_smoke install mutation.nodes

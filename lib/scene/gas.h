@@ -40,7 +40,7 @@ struct kiln_gas_source {
     struct kiln_value fuel, temperature, smoke;
     struct kiln_value3 color;      /* of the smoke, linear; by word: it has none of its own */
     struct kiln_value3 velocity;   /* m/s */
-    struct kiln_value outward;     /* m/s, away from the shape's origin */
+    struct kiln_value outward;     /* m/s, away from the shape's origin, or along a cone's lines */
     struct kiln_value inherit;     /* part of the velocity of the shape, or the particle */
     struct kiln_value noise;       /* part of the values that noise takes away, 0..1 */
     struct kiln_value noise_size;  /* m: of its largest eddies */

@@ -147,6 +147,7 @@ static float reach_of(const struct kiln_scene *scene, const struct kiln_gas_sour
     case KILN_EMITTER_SPHERE:
     case KILN_EMITTER_DISC:
     case KILN_EMITTER_RING:
+    case KILN_EMITTER_CONE:
         return fade + kiln_scene_system_value(scene, system, &emit->radius, time_s);
     case KILN_EMITTER_BOX:
     case KILN_EMITTER_LINE:
@@ -208,8 +209,9 @@ static bool settle_source(const struct settling *s, uint32_t index)
     struct kiln_gas_domain *domain = s->domain;
     struct kiln_gas_source *source = &domain->sources[index];
     const float longest = longest_of(domain);
-    const bool faces =
-        source->emit.shape == KILN_EMITTER_DISC || source->emit.shape == KILN_EMITTER_RING;
+    static const char *const facing[KILN_EMITTER_SYSTEM + 1] = {
+        [KILN_EMITTER_DISC] = "disc", [KILN_EMITTER_RING] = "ring", [KILN_EMITTER_CONE] = "cone"};
+    const char *shape = facing[source->emit.shape];
     char key[64];
     settle_auto(&source->reach, fmaxf(longest / 16.0f, 1.5f * domain->shape.cell));
     settle_auto(&source->noise_size, longest / 24.0f);
@@ -219,9 +221,8 @@ static bool settle_source(const struct settling *s, uint32_t index)
         source->emit.shape == KILN_EMITTER_SYSTEM ? KILN_GAS_FROM_SYSTEM : KILN_GAS_FROM_SHAPE;
     if (source->from == KILN_GAS_FROM_SYSTEM)
         return settle_system(s, index);
-    snprintf(key, sizeof key, "sources.%u.from.%s.direction", index,
-             source->emit.shape == KILN_EMITTER_RING ? "ring" : "disc");
-    if (faces && is_zero_vector(s->scene, &source->emit.direction))
+    snprintf(key, sizeof key, "sources.%u.from.%s.direction", index, shape ? shape : "");
+    if (shape && is_zero_vector(s->scene, &source->emit.direction))
         return refuse(s, key, "must not be [0, 0, 0]");
     warn_of_outside(s, index);
     return true;

@@ -24,9 +24,14 @@ TABLE(point) = {
     END,
 };
 
+#define SURFACE(where)                                                                             \
+    BOOLEAN(MOTION, "surface", emit.surface, "false",                                              \
+            "The source is " where " alone, and fades to both sides of it within `reach`.")
+
 TABLE(sphere) = {
     ORIGIN,
     RADIUS,
+    SURFACE("the surface"),
     END,
 };
 
@@ -34,13 +39,29 @@ TABLE(box) = {
     ORIGIN,
     VECTOR(MOTION, "size", emit.size, KILN_METRES, 0, FAR, TIME(4), "[1, 1, 1]",
            "Lengths of the edges."),
+    SURFACE("the six faces"),
     END,
 };
 
 TABLE(disc) = {
+    ORIGIN, DIRECTION, RADIUS, SURFACE("the rim"), END,
+};
+
+TABLE(ring) = {
     ORIGIN,
     DIRECTION,
     RADIUS,
+    END,
+};
+
+TABLE(cone) = {
+    ORIGIN,
+    DIRECTION,
+    VALUE(MOTION, "angle", emit.angle, KILN_ANGLE, 0, KILN_DEG(180), TIME(43), "15 deg",
+          "Largest angle between `direction` and the ways on which `outward` blows the gas."),
+    VALUE(MOTION, "radius", emit.radius, KILN_METRES, 0, FAR, TIME(44), "0 m",
+          "Radius of the cone's small end, a disc, which is the source. `outward` blows along the "
+          "lines from the tip that the cone would have without this disc."),
     END,
 };
 
@@ -114,7 +135,11 @@ KINDS(shapes) = {
      MEMBERS(box),
      .help = "A box whose edges lie along the axes."},
     {.name = "disc", .value = KILN_EMITTER_DISC, MEMBERS(disc), .help = "A flat disc."},
-    {.name = "ring", .value = KILN_EMITTER_RING, MEMBERS(disc), .help = "The rim of a disc."},
+    {.name = "ring", .value = KILN_EMITTER_RING, MEMBERS(ring), .help = "The rim of a disc."},
+    {.name = "cone",
+     .value = KILN_EMITTER_CONE,
+     MEMBERS(cone),
+     .help = "A nozzle, whose jet widens."},
     {.name = "line", .value = KILN_EMITTER_LINE, MEMBERS(line), .help = "A line."},
     {.name = "mesh",
      .value = KILN_EMITTER_MESH,
@@ -182,7 +207,7 @@ TABLE(source) = {
            "source leaves velocities as they are."),
     VALUE(MOTION, "outward", outward, KILN_SPEED, -1000, 1000, TIME(12), "0 m/s",
           "Speed away from the origin of the shape, or from the particle, that is added to "
-          "`velocity`."),
+          "`velocity`. Of a cone, it is the speed along the lines of its jet."),
     VALUE(MOTION, "inherit", inherit, KILN_FRACTION, 0, 1, TIME(13), "0",
           "Fraction of the velocity of the shape, or of the particle, that is added, too."),
     GROUP(MOTION, "noise", source_noise, "Noise that breaks up the source."),

@@ -80,6 +80,24 @@ static float distance_to(const struct gas_source *source, float3 place)
     }
 }
 
+/* Returns the way of the jet of a cone at a place of the domain: away from the tip behind its small
+ * end, at most as far from its axis as its angle says. A cone of 90 degrees or more has its tip in
+ * its origin. */
+static float3 jet_at(const struct gas_source *source, float3 p)
+{
+    const float3 axis = source->jet, from = float3_sub(p, source->center);
+    const float ahead = exact_max(source->narrow, 0.0f) * source->nozzle;
+    const float wide = source->narrow > 0.0f ? source->wide : 1.0f;
+    const float3 way = float3_add_scaled(float3_scale(from, wide), axis, ahead);
+    const float3 unit = float3_normalize(way, axis);
+    const float along = float3_dot(unit, axis);
+    if (along >= source->narrow)
+        return unit;
+    const float3 across = float3_sub(unit, float3_scale(axis, along));
+    const float3 off = float3_normalize(across, FLOAT3(0.0f, 0.0f, 0.0f));
+    return float3_add_scaled(float3_scale(off, source->wide), axis, source->narrow);
+}
+
 /* Returns half the edges of a box about the shape, along the axes of its frame. */
 static float3 half_box(const struct gas_source *source)
 {
@@ -123,6 +141,13 @@ static void set_shape(const struct gas_sources *s, struct gas_source *source, fl
     source->half = float3_scale(size, 0.5f);
     source->radius = emit->shape == KILN_EMITTER_POINT ? 0.0f : value(s, &emit->radius, time_s);
     source->center = gas_mapped(&back, source->origin);
+    if (emit->shape == KILN_EMITTER_CONE) {
+        const struct exact_angle angle = exact_sincos(value(s, &emit->angle, time_s));
+        source->jet = float3_normalize(gas_turned(&back, source->axis), FLOAT3(0.0f, 1.0f, 0.0f));
+        source->narrow = angle.cosine;
+        source->wide = angle.sine;
+        source->nozzle = source->radius * source->metres;
+    }
     const float3 half = half_box(source);
     const float more = source->reach + s->domain->shape.cell;
     float reach[3];
@@ -284,7 +309,9 @@ static float3 velocity_of(const struct gas_source *source, float3 p, size_t bric
     if (source->outward == 0.0f)
         return source->velocity;
     const float3 out = float3_sub(p, source->center);
-    const float3 way = float3_normalize(out, FLOAT3(0.0f, 1.0f, 0.0f));
+    const float3 way = source->from->emit.shape == KILN_EMITTER_CONE
+                           ? jet_at(source, p)
+                           : float3_normalize(out, FLOAT3(0.0f, 1.0f, 0.0f));
     return float3_add_scaled(source->velocity, way, source->outward);
 }
 

@@ -22,6 +22,9 @@ struct gas_source {
     float3 color, velocity; /* velocity: m/s, in the domain's frame */
     float outward;          /* m/s */
     float3 center;          /* of the shape, in the domain */
+    float3 jet;             /* cone: its axis, in the domain */
+    float narrow, wide;     /* cone: cosine and sine of its angle */
+    float nozzle;           /* cone: radius of its small end, m of the domain */
     float noise, noise_scale, noise_rise; /* scale: 1/m */
     uint32_t seed;
     struct gas_splats *splats; /* of a system; NULL: of a shape */
