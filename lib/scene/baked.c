@@ -7,47 +7,81 @@
 
 #include "scene/options.h"
 
-const struct kiln_force *kiln_system_force(const struct kiln_system *system, uint32_t i)
+/* The forces of a system or of a domain of gas, whose key in a file is `root`. */
+struct list {
+    const struct kiln_force *forces;
+    uint32_t count;
+    const char *root, *name;
+};
+
+static struct list list_of_system(const struct kiln_system *system)
 {
-    if (i < system->force_count)
-        return &system->forces[i];
-    i -= system->force_count;
-    for (uint32_t k = 0; k < system->force_count; k++) {
-        const struct kiln_force *force = &system->forces[k];
-        if (force->kind != KILN_FORCE_BAKED)
-            continue;
-        if (i < force->of.count)
+    return (struct list){system->forces, system->force_count, "systems", system->name};
+}
+
+static struct list list_of_gas(const struct kiln_gas_domain *domain)
+{
+    return (struct list){domain->forces, domain->force_count, "gas", domain->name};
+}
+
+/* Returns force number i of a list. Behind its forces come those of its baked winds: `baked` is
+ * then the number of the wind, and `inner` that of the force in it. Otherwise `baked` is that of
+ * the force. */
+static const struct kiln_force *find(const struct list *list, uint32_t i, uint32_t *baked,
+                                     uint32_t *inner)
+{
+    *baked = i;
+    if (i < list->count)
+        return &list->forces[i];
+    i -= list->count;
+    for (uint32_t k = 0; k < list->count; k++) {
+        const struct kiln_force *force = &list->forces[k];
+        const uint32_t count = force->kind == KILN_FORCE_BAKED ? force->of.count : 0;
+        *baked = k;
+        *inner = i;
+        if (i < count)
             return &force->of.at[i];
-        i -= force->of.count;
+        i -= count;
     }
     return NULL;
 }
 
+static void write_path(const struct list *list, uint32_t i, char *path, size_t size)
+{
+    uint32_t baked = 0, inner = 0;
+    const struct kiln_force *force = find(list, i, &baked, &inner);
+    if (!force)
+        return;
+    const int length = snprintf(path, size, "%s.%s.forces.%u.%s", list->root, list->name, baked,
+                                kiln_force_name(&list->forces[baked]));
+    if (i >= list->count && length > 0 && (size_t)length < size)
+        snprintf(path + length, size - (size_t)length, ".of.%u.%s", inner, kiln_force_name(force));
+}
+
+const struct kiln_force *kiln_system_force(const struct kiln_system *system, uint32_t i)
+{
+    const struct list list = list_of_system(system);
+    uint32_t baked = 0, inner = 0;
+    return find(&list, i, &baked, &inner);
+}
+
+const struct kiln_force *kiln_gas_force(const struct kiln_gas_domain *domain, uint32_t i)
+{
+    const struct list list = list_of_gas(domain);
+    uint32_t baked = 0, inner = 0;
+    return find(&list, i, &baked, &inner);
+}
+
 void kiln_system_force_path(const struct kiln_system *system, uint32_t i, char *path, size_t size)
 {
-    if (i < system->force_count) {
-        snprintf(path, size, "systems.%s.forces.%u.%s", system->name, i,
-                 kiln_force_name(&system->forces[i]));
-        return;
-    }
-    i -= system->force_count;
-    for (uint32_t k = 0; k < system->force_count; k++) {
-        const struct kiln_force *force = &system->forces[k];
-        if (force->kind != KILN_FORCE_BAKED)
-            continue;
-        if (i < force->of.count) {
-            snprintf(path, size, "systems.%s.forces.%u.%s.of.%u.%s", system->name, k,
-                     kiln_force_name(force), i, kiln_force_name(&force->of.at[i]));
-            return;
-        }
-        i -= force->of.count;
-    }
+    const struct list list = list_of_system(system);
+    write_path(&list, i, path, size);
 }
 
 void kiln_gas_force_path(const struct kiln_gas_domain *domain, uint32_t i, char *path, size_t size)
 {
-    snprintf(path, size, "gas.%s.forces.%u.%s", domain->name, i,
-             kiln_force_name(&domain->forces[i]));
+    const struct list list = list_of_gas(domain);
+    write_path(&list, i, path, size);
 }
 
 const struct kiln_force *kiln_owner_force(const struct kiln_scene *scene, uint32_t owner,
@@ -55,8 +89,7 @@ const struct kiln_force *kiln_owner_force(const struct kiln_scene *scene, uint32
 {
     if (owner < scene->system_count)
         return kiln_system_force(&scene->systems[owner], i);
-    const struct kiln_gas_domain *domain = &scene->gas[owner - scene->system_count];
-    return i < domain->force_count ? &domain->forces[i] : NULL;
+    return kiln_gas_force(&scene->gas[owner - scene->system_count], i);
 }
 
 void kiln_owner_force_path(const struct kiln_scene *scene, uint32_t owner, uint32_t i, char *path,

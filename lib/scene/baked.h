@@ -22,7 +22,8 @@ static inline uint32_t kiln_force_owners(const struct kiln_scene *scene)
     return scene->system_count + scene->gas_count;
 }
 
-/* Writes the path of force number i of a domain of gas: "gas.fire.forces.2.curl". */
+/* Return the same of a domain of gas: "gas.fire.forces.2.curl". */
+const struct kiln_force *kiln_gas_force(const struct kiln_gas_domain *domain, uint32_t i);
 void kiln_gas_force_path(const struct kiln_gas_domain *domain, uint32_t i, char *path, size_t size);
 
 /* Returns how many samples the grid of a baked wind has, and along each axis. Its cells are about

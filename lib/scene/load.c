@@ -73,10 +73,10 @@ static bool add_gas_hashes(const struct kiln_scene *scene, struct kiln_text *tex
 {
     bool read = true;
     for (uint32_t i = 0; i < scene->gas_count; i++) {
-        const struct kiln_gas_domain *domain = &scene->gas[i];
-        for (uint32_t k = 0; read && k < domain->force_count; k++)
-            if (domain->forces[k].kind == KILN_FORCE_FIELD)
-                read = kiln_asset_add_hash(scene, domain->forces[k].file, text, error);
+        const struct kiln_force *force;
+        for (uint32_t k = 0; read && (force = kiln_gas_force(&scene->gas[i], k)) != NULL; k++)
+            if (force->kind == KILN_FORCE_FIELD)
+                read = kiln_asset_add_hash(scene, force->file, text, error);
     }
     return read;
 }

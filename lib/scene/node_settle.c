@@ -190,21 +190,33 @@ static bool find_force(struct kiln_reader *reader, const struct kiln_node *root,
     return ok && find_node(reader, root, key, &force->region.attach);
 }
 
-static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root,
-                        struct kiln_system *system)
+/* Finds the nodes of the forces of a system or of a domain of gas (kiln_owner_force), and of those
+ * in its baked winds. */
+static bool find_forces(struct kiln_reader *reader, const struct kiln_node *root, uint32_t owner,
+                        struct kiln_force *forces, uint32_t count)
 {
-    uint32_t inner = system->force_count;
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    uint32_t inner = count;
     bool ok = true;
     char path[128];
-    for (uint32_t i = 0; ok && i < system->force_count; i++) {
-        struct kiln_force *force = &system->forces[i];
-        kiln_system_force_path(system, i, path, sizeof path);
+    for (uint32_t i = 0; ok && i < count; i++) {
+        struct kiln_force *force = &forces[i];
+        kiln_owner_force_path(scene, owner, i, path, sizeof path);
         ok = find_force(reader, root, path, force);
         for (uint32_t k = 0; ok && force->kind == KILN_FORCE_BAKED && k < force->of.count; k++) {
-            kiln_system_force_path(system, inner++, path, sizeof path);
+            kiln_owner_force_path(scene, owner, inner++, path, sizeof path);
             ok = find_force(reader, root, path, &force->of.at[k]);
         }
     }
+    return ok;
+}
+
+static bool find_forces_of_system(struct kiln_reader *reader, const struct kiln_node *root,
+                                  struct kiln_system *system)
+{
+    const uint32_t owner = (uint32_t)(system - kiln_reader_scene(reader)->systems);
+    bool ok = find_forces(reader, root, owner, system->forces, system->force_count);
+    char path[128];
     for (uint32_t i = 0; ok && i < system->demitter_count; i++) {
         snprintf(path, sizeof path, "systems.%s.demitters.%u.attach", system->name, i);
         ok = find_node(reader, root, path, &system->demitters[i].attach);
@@ -225,10 +237,8 @@ static bool find_gas(struct kiln_reader *reader, const struct kiln_node *root)
             snprintf(path, sizeof path, "gas.%s.sources.%u.attach", domain->name, k);
             ok = find_node(reader, root, path, &domain->sources[k].emit.attach);
         }
-        for (uint32_t k = 0; ok && k < domain->force_count; k++) {
-            kiln_gas_force_path(domain, k, path, sizeof path);
-            ok = find_force(reader, root, path, &domain->forces[k]);
-        }
+        ok = ok && find_forces(reader, root, scene->system_count + i, domain->forces,
+                               domain->force_count);
     }
     return ok;
 }
@@ -241,7 +251,8 @@ static bool find_systems(struct kiln_reader *reader, const struct kiln_node *roo
         struct kiln_emitter *emit = &system->emit;
         char path[80];
         snprintf(path, sizeof path, "systems.%s.emit.attach", system->name);
-        if (!find_node(reader, root, path, &emit->attach) || !find_forces(reader, root, system))
+        if (!find_node(reader, root, path, &emit->attach) ||
+            !find_forces_of_system(reader, root, system))
             return false;
         char space[80];
         snprintf(space, sizeof space, "systems.%s.space", system->name);

@@ -18,6 +18,7 @@ extern const struct kiln_option_kind kiln_force_kinds[];
 extern const struct kiln_option_kind kiln_object_kinds[];
 extern const struct kiln_option_kind kiln_interaction_kinds[];
 extern const struct kiln_option *const kiln_baked_force; /* an item of the forces of a baked wind */
+extern const struct kiln_option *const kiln_force_of_gas; /* an item of those of a domain of gas */
 
 /* The structs that these tables fill (option/rows.h). */
 typedef struct kiln_scene kiln_options_root_fills;

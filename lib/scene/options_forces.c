@@ -205,20 +205,31 @@ TABLE(baked_drag) = {
 
 /* The kinds of force that a grid can hold: all but limits of the speed, and other grids of this
  * kind. */
+#define LINEAR_KINDS                                                                               \
+    {.name = "gravity",                                                                            \
+     .value = KILN_FORCE_GRAVITY,                                                                  \
+     MEMBERS(gravity),                                                                             \
+     .shortcut = "acceleration"},                                                                  \
+        {.name = "drag", .value = KILN_FORCE_DRAG, MEMBERS(baked_drag), .shortcut = "strength"},   \
+        {.name = "curl", .value = KILN_FORCE_CURL, MEMBERS(curl), .shortcut = "strength"},         \
+        {.name = "attract",                                                                        \
+         .value = KILN_FORCE_ATTRACT,                                                              \
+         MEMBERS(attract),                                                                         \
+         .shortcut = "strength"},                                                                  \
+        {.name = "vortex", .value = KILN_FORCE_VORTEX, MEMBERS(vortex), .shortcut = "speed"},      \
+        {.name = "wind",                                                                           \
+         .variant = "uniform",                                                                     \
+         .value = KILN_FORCE_WIND,                                                                 \
+         MEMBERS(wind),                                                                            \
+         .shortcut = "velocity"},                                                                  \
+        {.name = "wind", .variant = "curl", .value = KILN_FORCE_CURL, MEMBERS(curl)},              \
+        {.name = "wind", .variant = "vortex", .value = KILN_FORCE_VORTEX, MEMBERS(vortex)},        \
+    {                                                                                              \
+        .name = "wind", .variant = "grid", .value = KILN_FORCE_FIELD, MEMBERS(grid)                \
+    }
+
 KINDS(baked_kinds) = {
-    {.name = "gravity", .value = KILN_FORCE_GRAVITY, MEMBERS(gravity), .shortcut = "acceleration"},
-    {.name = "drag", .value = KILN_FORCE_DRAG, MEMBERS(baked_drag), .shortcut = "strength"},
-    {.name = "curl", .value = KILN_FORCE_CURL, MEMBERS(curl), .shortcut = "strength"},
-    {.name = "attract", .value = KILN_FORCE_ATTRACT, MEMBERS(attract), .shortcut = "strength"},
-    {.name = "vortex", .value = KILN_FORCE_VORTEX, MEMBERS(vortex), .shortcut = "speed"},
-    {.name = "wind",
-     .variant = "uniform",
-     .value = KILN_FORCE_WIND,
-     MEMBERS(wind),
-     .shortcut = "velocity"},
-    {.name = "wind", .variant = "curl", .value = KILN_FORCE_CURL, MEMBERS(curl)},
-    {.name = "wind", .variant = "vortex", .value = KILN_FORCE_VORTEX, MEMBERS(vortex)},
-    {.name = "wind", .variant = "grid", .value = KILN_FORCE_FIELD, MEMBERS(grid)},
+    LINEAR_KINDS,
     {.name = NULL},
 };
 
@@ -249,6 +260,16 @@ TABLE(baked) = {
     REGION,
     END,
 };
+
+/* The kinds of force that move gas: those of a grid, and grids. */
+KINDS(gas_kinds) = {
+    LINEAR_KINDS,
+    {.name = "wind", .variant = "baked", .value = KILN_FORCE_BAKED, MEMBERS(baked)},
+    {.name = NULL},
+};
+
+ITEM_OF_KINDS(gas_force, gas_kinds, kind, .name = "force");
+const struct kiln_option *const kiln_force_of_gas = &gas_force;
 
 TABLE(gas) = {
     {ROW(MOTION, "gas", domain, gas, NULL, "Name of the domain of gas.")},

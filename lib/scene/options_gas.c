@@ -385,8 +385,8 @@ PUBLIC_TABLE(kiln_options_gas) = {
     VALUE(MOTION, "drag", drag, KILN_PER_SECOND, 0, 1000, TIME(35), "0.05 1/s",
           "Rate at which gas slows down."),
     {ROW_AT(MOTION, "forces", forces, OFFSET_OF_ARRAY(forces, kiln_force_kinds), "[]",
-            "Forces that accelerate the gas: those that a baked wind may have. Their values vary "
-            "over time alone."),
+            "Forces that accelerate the gas: those that a baked wind may have, and baked winds. "
+            "Their values vary over time alone."),
      .item_size = sizeof(struct kiln_force), COUNTED(forces, force_count)},
     BOOLEAN(MOTION, "collide", collide, "true",
             "Gas flows around the objects and the floor that particles collide with."),

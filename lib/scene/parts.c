@@ -222,9 +222,10 @@ static bool moves_gas(const struct kiln_scene *scene, uint32_t node,
     bool moves = is_carried(scene, node, &domain->attach);
     for (uint32_t i = 0; i < domain->source_count; i++)
         moves = moves || is_carried(scene, node, &domain->sources[i].emit.attach);
-    for (uint32_t i = 0; i < domain->force_count; i++)
-        moves = moves || is_carried(scene, node, &domain->forces[i].attach) ||
-                is_carried(scene, node, &domain->forces[i].region.attach);
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_gas_force(domain, i)) != NULL; i++)
+        moves = moves || is_carried(scene, node, &force->attach) ||
+                is_carried(scene, node, &force->region.attach);
     return moves;
 }
 

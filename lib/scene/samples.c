@@ -87,17 +87,19 @@ static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Counts the samples of the baked winds of a system. */
-static bool count_baked(struct kiln_reader *reader, const struct kiln_node *root,
-                        const struct kiln_system *system, uint32_t *baked, struct count *count)
+/* Counts the samples of the baked winds of a system or of a domain of gas. */
+static bool count_baked(struct kiln_reader *reader, const struct kiln_node *root, uint32_t owner,
+                        uint32_t *baked, struct count *count)
 {
-    for (uint32_t i = 0; i < system->force_count; i++) {
-        const struct kiln_force *force = &system->forces[i];
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    const struct kiln_force *force;
+    for (uint32_t i = 0; (force = kiln_owner_force(scene, owner, i)) != NULL; i++) {
         uint32_t size[3];
-        char path[128];
+        char wind[128], path[160];
         if (!kiln_force_is_baked(force))
             continue;
-        snprintf(path, sizeof path, "systems.%s.forces.%u.wind.cells", system->name, i);
+        kiln_owner_force_path(scene, owner, i, wind, sizeof wind);
+        snprintf(path, sizeof path, "%s.cells", wind);
         if (++*baked > KILN_MAX_BAKED)
             return kiln_reader_error_at(reader, root, path,
                                         "more than %d baked winds; no more are allowed",
@@ -186,13 +188,9 @@ bool kiln_samples_settle(struct kiln_reader *reader, const struct kiln_node *roo
     struct count count = {.samples = 0};
     struct winds winds = {.count = 0};
     uint32_t baked = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
+    for (uint32_t i = 0; i < kiln_force_owners(scene); i++) {
         if (!count_winds(reader, root, i, &winds, &count) ||
-            !count_baked(reader, root, &scene->systems[i], &baked, &count))
-            return false;
-    }
-    for (uint32_t i = scene->system_count; i < kiln_force_owners(scene); i++) {
-        if (!count_winds(reader, root, i, &winds, &count))
+            !count_baked(reader, root, i, &baked, &count))
             return false;
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {

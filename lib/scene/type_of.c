@@ -50,15 +50,24 @@ static const struct kiln_option_kind *kinds_over_time(struct kiln_reader *reader
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* Returns how many forces the baked winds of the same system have before these. */
+/* Returns the forces among which a baked wind stands, whose forces `field` is: those of a system or
+ * of a domain of gas. */
+static const struct kiln_force *list_around(const struct kiln_scene *scene, const void *field)
+{
+    const char *at = field, *gas = (const char *)scene->gas;
+    for (uint32_t i = 0; i < KILN_MAX_GAS; i++, gas += sizeof *scene->gas)
+        if (at >= gas && at < gas + sizeof *scene->gas)
+            return scene->gas[i].forces;
+    const size_t offset = (size_t)(at - (const char *)scene->systems);
+    return scene->systems[offset / sizeof *scene->systems].forces;
+}
+
+/* Returns how many forces the baked winds of the same list have before these. */
 static uint32_t count_before(const struct kiln_reader *reader, const void *field)
 {
-    const struct kiln_scene *scene = kiln_reader_scene(reader);
-    const size_t offset = (size_t)((const char *)field - (const char *)scene->systems);
-    const struct kiln_system *system = &scene->systems[offset / sizeof *system];
     uint32_t count = 0;
-    for (const struct kiln_force *force = system->forces; (const void *)&force->of != field;
-         force++)
+    for (const struct kiln_force *force = list_around(kiln_reader_scene(reader), field);
+         (const void *)&force->of != field; force++)
         count += force->kind == KILN_FORCE_BAKED ? force->of.count : 0;
     return count;
 }
@@ -135,12 +144,13 @@ const struct kiln_option_type kiln_type_of = {
     .schema = schema_of,
 };
 
-/* ---- forces of a domain of gas: a list of the same items ------------------------------------- */
+/* ---- forces of a domain of gas: a list of these items, and of baked winds ----------------------
+ */
 
 static bool read_forces(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
-    struct kiln_option item = *kiln_baked_force, list = *option;
+    struct kiln_option item = *kiln_force_of_gas, list = *option;
     item.kinds = kinds_over_time(reader, item.kinds);
     list.item = &item;
     return item.kinds && kiln_type_list.read(reader, &list, node, field);
@@ -150,21 +160,21 @@ static void print_forces(struct kiln_printer *printer, const struct kiln_option 
                          const void *field)
 {
     struct kiln_option list = *option;
-    list.item = kiln_baked_force;
+    list.item = kiln_force_of_gas;
     kiln_type_list.print(printer, &list, field);
 }
 
 static void describe_forces(const struct kiln_option *option, struct kiln_text *out)
 {
     struct kiln_option list = *option;
-    list.item = kiln_baked_force;
+    list.item = kiln_force_of_gas;
     kiln_type_list.describe(&list, out);
 }
 
 static void schema_forces(const struct kiln_option *option, struct kiln_text *out)
 {
     struct kiln_option list = *option;
-    list.item = kiln_baked_force;
+    list.item = kiln_force_of_gas;
     kiln_type_list.schema(&list, out);
 }
 

@@ -109,13 +109,17 @@ static const struct bad sources[] = {
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {ring: {direction: [0, 0, "
      "0]}}}]}}\n",
      ":2:71: gas.a.sources.0.from.ring.direction: must not be [0, 0, 0]"},
-    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {cone: {}}}]}}\n",
-     ":2:53: gas.a.sources.0.from.cone: unknown kind (did you mean 'line'?)"},
+    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {cone: {direction: [0, 0, "
+     "0]}}}]}}\n",
+     ":2:71: gas.a.sources.0.from.cone.direction: must not be [0, 0, 0]"},
+    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {cone: {angle: 181 deg}}}]}}\n",
+     ":2:67: gas.a.sources.0.from.cone.angle: 181 deg is out of range; allowed is from 0 deg to "
+     "180 deg"},
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {sphere: {radius: -1}}}]}}\n",
      ":2:70: gas.a.sources.0.from.sphere.radius: -1 is out of range; allowed is from 0 m to 100000 "
      "m"},
-    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {sphere: {surface: true}}}]}}\n",
-     ":2:62: gas.a.sources.0.from.sphere.surface: unknown key (there are: origin, radius)"},
+    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {point: {surface: true}}}]}}\n",
+     ":2:61: gas.a.sources.0.from.point.surface: unknown key (there are: origin)"},
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {mesh: {}}}]}}\n",
      ":2:59: gas.a.sources.0.from.mesh: must have one of `file` and `object`, found neither"},
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{from: {mesh: {object: x}}}]}}\n",
@@ -171,8 +175,20 @@ static const struct bad forces[] = {
      ":2:66: gas.a.forces.0.wind.gas: unknown key (there are: velocity, pull, mode, attach, "
      "region)"},
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{}], forces: [wind: {field: baked}]}}\n",
-     ":2:73: gas.a.forces.0.wind.field: unknown word 'baked' (there are: uniform, curl, vortex, "
-     "grid)"},
+     ":2:65: gas.a.forces.0.wind.box: the key is missing and must be given"},
+    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{}], forces: [wind: {baked: {box: "
+     "{size: "
+     "[1, 1, 1]}, of: [limit: 3]}}]}}\n",
+     ":2:103: gas.a.forces.0.wind.baked.of.0.limit: unknown kind (there are: gravity, drag, curl, "
+     "attract, vortex, wind)"},
+    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{}], forces: [wind: {baked: {box: "
+     "{size: "
+     "[1, 1, 1]}, of: [curl: {attach: n}]}}]}}\n",
+     ":2:118: gas.a.forces.0.wind.baked.of.0.curl.attach: unknown node 'n' (there are none)"},
+    {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{}], forces: [wind: {field: gas, gas: "
+     "a}]}}\n",
+     ":2:73: gas.a.forces.0.wind.field: unknown word 'gas' (there are: uniform, curl, vortex, "
+     "grid, baked)"},
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{}], forces: [drag: {quadratic: 1}]}}\n",
      ":2:66: gas.a.forces.0.drag.quadratic: unknown key (there are: strength, attach, region)"},
     {"kiln: 1\ngas: {a: {box: {size: [1, 1, 1]}, sources: [{}], forces: [curl: {attach: n}]}}\n",

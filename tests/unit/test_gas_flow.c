@@ -329,6 +329,71 @@ static void smoke_goes_with_the_wind(void **state)
     end_scene(&run, scene);
 }
 
+/* Returns the largest difference of two domains' velocities across faces, m/s. */
+static double largest_difference(const struct kiln_gas *a, const struct kiln_gas *b)
+{
+    double most = 0.0;
+    assert_true(a->cells.x == b->cells.x && a->cells.y == b->cells.y && a->cells.z == b->cells.z);
+    for (int c = 0; c < 3; c++)
+        for (int32_t z = 0; z < a->cells.z; z++)
+            for (int32_t y = 0; y < a->cells.y; y++)
+                for (int32_t x = 0; x < a->cells.x; x++) {
+                    const ptrdiff_t i = z * a->plane + y * a->row + x;
+                    most = fmax(most, fabs((double)a->faces[c][i] - (double)b->faces[c][i]));
+                }
+    return most;
+}
+
+/* A baked wind moves gas as its forces do. It is written in vectors on the host, in its own node,
+ * in the steps that it says, and read at the points where gas asks for forces. */
+static void gas_follows_baked_winds(void **state)
+{
+    (void)state;
+    static const char *const forces =
+        "[wind: {velocity: [1.5, 0, 0], pull: 2}, drag: 0.3, "
+        "vortex: {position: [0.1, 0, 0], axis: [0, 0, 1], speed: 2, radius: 0.6, profile: "
+        "lamb_oseen, pull: 3}, wind: {velocity: {keys: {0 s: [0, 0, 0], 1 s: [0, 2, 0]}}, pull: 1, "
+        "region: {box: {center: [0, 0, 0], size: [1, 3, 3]}, falloff: 0.4}}]";
+    static const struct {
+        int cells, every;
+        double most; /* part of the greatest speed by which they differ */
+    } cases[] = {
+        {24, 1, 2e-5}, /* points where the gas asks: rounding, 2e-6 */
+        {12, 1, 0.1},
+        {24, 4, 0.02}, /* keys are up to 3 steps old */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static const char rest[] =
+            "kiln: 1\nsimulation: {rate: 60}\nbackdrop: {floor: none}\n"
+            "nodes: {side: {position: [0.5, 0, 0]}}\n"
+            "gas: {a: {box: {center: [0, 0, 0], size: [2, 2, 2]}, cell: 0.0625, burn: none,\n"
+            "  buoyancy: 0, vorticity: 0, sides: {bottom: open}, turbulence: {strength: 0},\n"
+            "  sources: [{from: {box: {size: [2, 2, 2]}}, fuel: 0, temperature: 0, smoke: 1}],\n"
+            "  forces: ";
+        char text[2][1800];
+        struct simulation run[2];
+        struct kiln_scene *scene[2];
+        snprintf(text[0], sizeof text[0], "%s%s}}\n", rest, forces);
+        snprintf(text[1], sizeof text[1],
+                 "%s[{wind: {baked: {box: {center: [-0.5, 0, 0], size: [3, 3, 3]}, attach: side, "
+                 "cells: %d, every: %d, of: %s}}}]}}\n",
+                 rest, cases[i].cells, cases[i].every, forces);
+        for (int k = 0; k < 2; k++) {
+            scene[k] = start_scene(&run[k], text[k]);
+            simulation_run(&run[k], 30);
+        }
+        const struct kiln_gas *plain = &run[0].pool.gas[0], *baked = &run[1].pool.gas[0];
+        const double fastest = (double)plain->fastest;
+        const double off = largest_difference(plain, baked) / fastest;
+        assert_true(fastest > 1.0);
+        if (!(off < cases[i].most) || (i > 0 && !(off > 1e-4)))
+            fail_msg("%d cells, every %d steps: off by %.3g of %.3g m/s", cases[i].cells,
+                     cases[i].every, off, fastest);
+        for (int k = 0; k < 2; k++)
+            end_scene(&run[k], scene[k]);
+    }
+}
+
 #define PLUME                                                                                      \
     "{box: {size: [2, 4, 2]}, cell: 0.0625, burn: none, sources: [{from: {sphere: {origin: [0, "   \
     "0.5, 0], radius: 0.3}}, fuel: 0, temperature: 1, smoke: 1}]"
@@ -416,6 +481,7 @@ int main(void)
         cmocka_unit_test(layers_of_air_stay_at_rest),
         cmocka_unit_test(pressure_leaves_little_divergence),
         cmocka_unit_test(smoke_goes_with_the_wind),
+        cmocka_unit_test(gas_follows_baked_winds),
         cmocka_unit_test(gas_rises_in_turned_domains),
         cmocka_unit_test(domains_do_not_touch),
     };

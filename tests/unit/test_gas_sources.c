@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "sim/gas/sources.h"
 #include "support/cmocka.h"
@@ -237,6 +238,7 @@ static void shells_are_empty(void **state)
     static const char *const shapes[] = {"sphere: {radius: 0.7, surface: true}",
                                          "box: {size: [1.4, 1.4, 1.4], surface: true}",
                                          "mesh: {file: tests/mutation/tetrahedron.obj, scale: 3}"};
+    assert_int_equal(chdir(KILN_SOURCE_DIR), 0); /* where the mesh is */
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
         char text[600];
         snprintf(text, sizeof text,

@@ -57,7 +57,7 @@ bool kiln_bakes_init(struct kiln_bakes *bakes, struct kiln_device *device,
                      const struct kiln_scene *scene, const struct kiln_sim_grids *grids,
                      struct kiln_error *error)
 {
-    uint32_t found = 0, baked = 0; /* those of gas are not written here */
+    uint32_t found = 0, baked = 0; /* baked: those that kernels of GL write */
     *bakes = (struct kiln_bakes){.scene = scene, .device = device};
     kiln_buffer_init(&bakes->block, device, sizeof bakes->params, "baked wind");
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -67,6 +67,11 @@ bool kiln_bakes_init(struct kiln_bakes *bakes, struct kiln_device *device,
             if (kiln_force_is_baked(force))
                 bakes->system[found++] = i; /* in the order of grids->baked */
         }
+    }
+    for (uint32_t i = 0; i < scene->gas_count; i++) {
+        for (uint32_t k = 0; k < scene->gas[i].force_count; k++)
+            if (kiln_force_is_baked(&scene->gas[i].forces[k]))
+                bakes->system[found++] = KILN_SYSTEM_OF_GAS(i);
     }
     if (needs_host(bakes, grids)) {
         enum kiln_simd simd;
@@ -107,6 +112,19 @@ static void fill_forces(struct kiln_bakes *bakes, const struct kiln_sim_params *
         bakes->params.forces[k] = kiln_sim_force_params(&moment, params->grids, &forces[k]);
 }
 
+/* Returns the keys of the values of a domain of gas. */
+static struct kiln_derived_params derived_of_gas(const struct kiln_scene *scene, uint32_t system)
+{
+    const struct value_clocks clocks = kiln_scene_clocks(scene, system, 0.0f);
+    return (struct kiln_derived_params){.random_key = clocks.system, .scene_key = clocks.scene};
+}
+
+/* Returns whether a baked wind is one that moves gas. */
+static bool is_of_gas(const struct kiln_bakes *bakes, uint32_t i)
+{
+    return bakes->system[i] >= KILN_SYSTEM_OF_GAS(0);
+}
+
 /* Fills in the parameters of baked wind i in a step, and returns the frame of its grid. */
 static struct kiln_still_frame fill_params(struct kiln_bakes *bakes,
                                            const struct kiln_sim_params *params, uint32_t i,
@@ -114,8 +132,10 @@ static struct kiln_still_frame fill_params(struct kiln_bakes *bakes,
 {
     const struct kiln_force *baked = params->grids->baked[i];
     const uint32_t system = bakes->system[i];
-    fill_forces(bakes, params, &params->systems[system].derived, system, baked->of.at,
-                baked->of.count, step);
+    const struct kiln_derived_params derived = is_of_gas(bakes, i)
+                                                   ? derived_of_gas(bakes->scene, system)
+                                                   : params->systems[system].derived;
+    fill_forces(bakes, params, &derived, system, baked->of.at, baked->of.count, step);
     return kiln_sim_frame(bakes->scene, &baked->attach, kiln_sim_forces_s(bakes->scene, step));
 }
 
@@ -166,9 +186,7 @@ void kiln_bakes_of_gas(struct kiln_bakes *bakes, const struct kiln_sim_params *p
 {
     const struct kiln_scene *scene = bakes->scene;
     const struct kiln_gas_domain *gas = &scene->gas[domain];
-    const struct value_clocks clocks = kiln_scene_clocks(scene, KILN_SYSTEM_OF_GAS(domain), 0.0f);
-    const struct kiln_derived_params derived = {.random_key = clocks.system,
-                                                .scene_key = clocks.scene};
+    const struct kiln_derived_params derived = derived_of_gas(scene, KILN_SYSTEM_OF_GAS(domain));
     fill_forces(bakes, params, &derived, KILN_SYSTEM_OF_GAS(domain), gas->forces, gas->force_count,
                 step);
     struct kiln_bake_work work = {
@@ -184,19 +202,23 @@ void kiln_bakes_of_gas(struct kiln_bakes *bakes, const struct kiln_sim_params *p
                      bakes->bake_points, &work);
 }
 
-bool kiln_bakes_step(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
-                     struct kiln_threads *threads, uint32_t step, struct kiln_error *error)
+/* Writes the grids of all baked winds that move gas, or of all others, where they hold another
+ * time.
+ */
+static bool write_grids(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                        struct kiln_threads *threads, bool of_gas, uint32_t step,
+                        struct kiln_error *error)
 {
     const struct kiln_sim_grids *grids = params->grids;
     for (uint32_t i = 0; i < bake_count(grids); i++) {
         const uint32_t number = grids->file_count + i;
-        if (grids->baked[i]->kind == KILN_FORCE_GAS)
-            continue; /* the gas writes it */
+        if (grids->baked[i]->kind == KILN_FORCE_GAS || is_of_gas(bakes, i) != of_gas)
+            continue; /* the gas writes it, or the other call */
         const uint32_t wanted = kiln_baked_step(grids->baked[i], step);
         if (bakes->written[i] == wanted)
             continue;
         const struct kiln_still_frame node = fill_params(bakes, params, i, wanted);
-        const bool ok = bakes->device
+        const bool ok = bakes->device && !of_gas
                             ? write_in_gl(bakes, params, number, node, error)
                             : write_on_host(bakes, params, &params->surroundings.grids[number],
                                             node, threads, error);
@@ -205,4 +227,16 @@ bool kiln_bakes_step(struct kiln_bakes *bakes, const struct kiln_sim_params *par
         bakes->written[i] = wanted;
     }
     return true;
+}
+
+bool kiln_bakes_step_gas(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                         struct kiln_threads *threads, uint32_t step, struct kiln_error *error)
+{
+    return write_grids(bakes, params, threads, true, step, error);
+}
+
+bool kiln_bakes_step(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                     struct kiln_threads *threads, uint32_t step, struct kiln_error *error)
+{
+    return write_grids(bakes, params, threads, false, step, error);
 }

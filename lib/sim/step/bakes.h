@@ -20,7 +20,7 @@ KILN_SIMD_DECLARE(kiln_bake_points, kiln_bake_points);
 
 struct kiln_bakes {
     const struct kiln_scene *scene;
-    uint32_t system[KILN_MAX_BAKED];  /* number of the system of each baked wind */
+    uint32_t system[KILN_MAX_BAKED];  /* number of the system of each, or of the gas */
     uint32_t written[KILN_MAX_BAKED]; /* step that its grid holds; 0: none */
     struct kiln_step_params params;   /* of the grid that is being written */
     kiln_bake_points *bake_points;    /* on the host */
@@ -38,10 +38,16 @@ bool kiln_bakes_init(struct kiln_bakes *bakes, struct kiln_device *device,
                      struct kiln_error *error);
 void kiln_bakes_finish(struct kiln_bakes *bakes);
 
-/* Writes the grids that a step reads and that hold another time. What they hold follows from the
- * number of the step, whichever steps were run before. params: of the step; in GL, uploaded. */
+/* Writes the grids that the particles of a step read and that hold another time. What they hold
+ * follows from the number of the step, whichever steps were run before. params: of the step; in GL,
+ * uploaded. */
 bool kiln_bakes_step(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
                      struct kiln_threads *threads, uint32_t step, struct kiln_error *error);
+
+/* Writes the grids that the gas of a step reads, likewise, but on the host with every technique. It
+ * comes before the gas, and before kiln_bakes_step. */
+bool kiln_bakes_step_gas(struct kiln_bakes *bakes, const struct kiln_sim_params *params,
+                         struct kiln_threads *threads, uint32_t step, struct kiln_error *error);
 
 /* Writes the sums of the forces of a domain of gas at the points of a grid in the domain's frame,
  * on the host. params: of the step; around: has the grids that forces look up. */

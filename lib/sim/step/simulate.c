@@ -159,7 +159,8 @@ static bool move_gas(struct kiln_simulate *s, struct kiln_pool *pool, uint32_t s
                      struct kiln_error *error)
 {
     const struct kiln_gas_forces forces = {s, blow_on_gas};
-    return kiln_gas_stage_step(&s->gas, pool, &s->params, &forces, step, error) &&
+    return kiln_bakes_step_gas(&s->bakes, &s->params, s->threads, step, error) &&
+           kiln_gas_stage_step(&s->gas, pool, &s->params, &forces, step, error) &&
            kiln_gas_winds_write(s->scene, pool, &s->params, s->threads, step, error);
 }
 

@@ -68,9 +68,8 @@ static void list_winds(struct kiln_sim_grids *grids, const struct kiln_scene *sc
         }
     }
     grids->wind_count = grids->file_count;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
-            force = &scene->systems[i].forces[k];
+    for (uint32_t i = 0; i < kiln_force_owners(scene); i++) {
+        for (uint32_t k = 0; (force = kiln_owner_force(scene, i, k)) != NULL; k++) {
             if (kiln_force_is_baked(force))
                 grids->baked[grids->wind_count++ - grids->file_count] = force;
         }
@@ -327,9 +326,9 @@ void kiln_sim_grids_footprint(const struct kiln_scene *scene, struct kiln_footpr
     /* Grids that are loaded take about as much as their words once more, until all of them are
      * copied. Baked winds are not loaded. */
     uint64_t making = 0, loaded = scene->samples;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        for (uint32_t k = 0; k < scene->systems[i].force_count; k++) {
-            const struct kiln_force *force = &scene->systems[i].forces[k];
+    const struct kiln_force *force;
+    for (uint32_t i = 0; i < kiln_force_owners(scene); i++) {
+        for (uint32_t k = 0; (force = kiln_owner_force(scene, i, k)) != NULL; k++) {
             uint32_t size[3];
             loaded -= kiln_force_is_baked(force) ? kiln_baked_samples(force, size) : 0;
         }
