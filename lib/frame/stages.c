@@ -254,11 +254,12 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct 
         return false;
     kiln_moment_set_time(&s->moment, instant);
     end_pass(s, true);
+    const struct kiln_pool *gas = pool; /* that of the step, since gas has no moments between */
     pool = pool_at(s, before, pool, instant, error);
     return pool && advance_history(s, pool, error) &&
            RUN_PASS(s, KILN_PASS_lighting,
                     kiln_moment_set_particles(&s->moment, pool, s->on_host, error) &&
-                        kiln_lighting_run(s->lighting, &s->moment, &s->light, error),
+                        kiln_lighting_run(s->lighting, &s->moment, gas, &s->light, error),
                     error);
 }
 
@@ -280,6 +281,7 @@ static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, struct
     const struct kiln_volume_draw draw = {.moment = &s->moment,
                                           .pool = pool,
                                           .backdrop = kiln_backdrop_block(s->backdrop),
+                                          .lighting = &s->light,
                                           .depth = &s->scene_depth,
                                           .same = s->same_instant};
     return RUN_PASS(

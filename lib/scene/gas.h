@@ -11,6 +11,7 @@ enum {
     KILN_MAX_GAS_SOURCES = 8, /* of a domain */
     KILN_MAX_SUBSTEPS = 16,
     KILN_MAX_GAS_CELLS = 1 << 28, /* of all domains of a scene */
+    KILN_GAS_LIGHTS = 4,          /* of the flames of a domain: lights on what is around it */
 };
 
 /* Number of a domain among those of the systems, for what evaluates values by the number of a
@@ -86,7 +87,8 @@ struct kiln_gas_look {
     struct kiln_value intensity;  /* radiance a metre of whole flame, at temperature 1 */
     struct kiln_value absorption; /* 1/m: of whole flame */
     struct kiln_value bloom;      /* part of the flame's light that glows */
-    bool light;                   /* flames light smoke, and what is around */
+    struct kiln_value glow;       /* factor on the light of flames in their own smoke */
+    struct kiln_value light;      /* and on what is around */
     bool lights;                  /* sun, sky and lamps light the smoke */
     bool shadow;                  /* smoke throws shadows */
 };

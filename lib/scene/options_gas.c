@@ -277,9 +277,12 @@ TABLE(gas_look) = {
           "Light that whole flames take away. Fire is transparent where it is 0."),
     VALUE(LOOK, "bloom", bloom, KILN_FRACTION, 0, 100, TIME(42), "0.18",
           "Part of the light of flames that goes to the bloom."),
-    BOOLEAN(LOOK, "light", light, "true", "Flames light the smoke and the backdrop."),
+    VALUE(LOOK, "glow", glow, KILN_PLAIN, 0, 1000, TIME(92), "1",
+          "Factor on the light of flames in their own smoke. 0: they do not light it."),
+    VALUE(LOOK, "light", light, KILN_PLAIN, 0, 1000, TIME(93), "1",
+          "Factor on the light of flames on floor, objects and particles. 0: they light nothing."),
     BOOLEAN(LOOK, "lights", lights, "true", "Sun, sky and lamps light the smoke."),
-    BOOLEAN(LOOK, "shadow", shadow, "true", "Smoke throws shadows on the backdrop."),
+    BOOLEAN(LOOK, "shadow", shadow, "true", "Gas throws shadows on floor, objects and particles."),
     END,
 };
 

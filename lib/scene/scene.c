@@ -124,11 +124,30 @@ bool kiln_scene_has_sun(const struct kiln_scene *scene)
     return ever_shines(scene, &scene->backdrop.sun_color);
 }
 
+uint32_t kiln_scene_gas_lights(const struct kiln_scene *scene, uint32_t domain)
+{
+    const struct kiln_gas_domain *d = &scene->gas[domain];
+    const bool shines = d->enabled && d->burn.enabled &&
+                        kiln_scene_value_max(scene, &d->look.light) > 0.0f &&
+                        kiln_scene_value_max(scene, &d->look.intensity) > 0.0f;
+    return shines ? KILN_GAS_LIGHTS : 0;
+}
+
+bool kiln_scene_gas_is_smoke(const struct kiln_scene *scene, uint32_t domain)
+{
+    const struct kiln_gas_domain *d = &scene->gas[domain];
+    return d->enabled && d->look.shadow &&
+           (kiln_scene_value_max(scene, &d->look.extinction) > 0.0f ||
+            kiln_scene_value_max(scene, &d->look.absorption) > 0.0f);
+}
+
 bool kiln_scene_has_firelight(const struct kiln_scene *scene)
 {
     bool found = false;
     for (uint32_t i = 0; i < scene->system_count; i++)
         found |= scene->systems[i].enabled && ever_shines(scene, &scene->systems[i].look.light);
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        found |= kiln_scene_gas_lights(scene, i) > 0;
     return found;
 }
 
@@ -140,6 +159,8 @@ bool kiln_scene_has_smoke(const struct kiln_scene *scene)
         found |= kiln_system_is_smoke(system) &&
                  kiln_scene_value_max(scene, &system->look.shadow) > 0.0f;
     }
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        found |= kiln_scene_gas_is_smoke(scene, i);
     return found;
 }
 
@@ -159,6 +180,8 @@ uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
         if (system->enabled && system->look.light_shadow && ever_shines(scene, &system->look.light))
             count += system->look.light_count;
     }
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        count += kiln_scene_gas_lights(scene, i);
     return count;
 }
 

@@ -325,8 +325,14 @@ static inline bool kiln_scene_stores_keys(const struct kiln_scene *scene)
  * eye and the pixels' samples have one place. */
 bool kiln_scene_view_stands(const struct kiln_scene *scene);
 
-/* Return whether the sun ever shines, whether particles ever emit light, whether there are lamps or
- * such light, whether particles are smoke that throws shadows, and whether there is ever haze. */
+/* Return how many lights the flames of a domain of gas may shed on what is around, and whether the
+ * domain throws shadows. */
+uint32_t kiln_scene_gas_lights(const struct kiln_scene *scene, uint32_t domain);
+bool kiln_scene_gas_is_smoke(const struct kiln_scene *scene, uint32_t domain);
+
+/* Return whether the sun ever shines, whether particles or flames of gas ever emit light, whether
+ * there are lamps or such light, whether there is smoke of particles or gas that throws shadows,
+ * and whether there is ever haze. */
 bool kiln_scene_has_sun(const struct kiln_scene *scene);
 bool kiln_scene_has_firelight(const struct kiln_scene *scene);
 static inline bool kiln_scene_has_lamps(const struct kiln_scene *scene)

@@ -141,6 +141,9 @@ struct kiln_view {
 #define LAMP_IS_RECTANGLE(lamp) ((lamp).facing.w == KILN_LAMP_RECTANGLE)
 #endif
 
+/* Bit of `casters.w` of a lamp whose light smoke does not dim. */
+#define KILN_LAMP_THROUGH_SMOKE 4u
+
 /* Bit of `casters.y` of a lamp at which the number of its maps of solids begins. */
 #define KILN_LAMP_SOLID_SHIFT 8
 
@@ -151,7 +154,7 @@ struct kiln_draw_light {
     /* x: 1 if shapes may hide the light; y: 1 + number of its
      * shadow maps of meshes, and from KILN_LAMP_SOLID_SHIFT on that of its maps of solid particles;
      * z: 1 + number of its map of smoke; for all three, 0: none; w: 1: it may be hidden; 3:
-     * particles have their part */
+     * particles have their part; with KILN_LAMP_THROUGH_SMOKE, objects alone may hide it */
     uint4 casters;
     /* A bit for each shape of kiln_draw_shapes that may hide the light. */
     uint4 hiders[KILN_MAX_OBJECTS / 128];

@@ -91,7 +91,7 @@ static void draw(struct fixture *f, int x, int y, float rgb[3])
     struct kiln_error error = {0};
     struct kiln_lighting lighting;
     assert_true(kiln_moment_fill(&f->moment, &f->pool, kiln_instant_at_step(STEP), true, &error));
-    assert_true(kiln_lighting_run(f->lighting, &f->moment, &lighting, &error));
+    assert_true(kiln_lighting_run(f->lighting, &f->moment, NULL, &lighting, &error));
     assert_true(kiln_backdrop_draw(f->backdrop, &f->moment, &lighting, &error));
     const float *pixels = kiln_image_host(&f->color, KILN_READ, &error);
     assert_non_null(pixels);

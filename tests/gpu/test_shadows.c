@@ -105,7 +105,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
     }
     drawing_place(d, particles, count, STEP);
     d->pool.systems[0].next_serial = count;
-    if (!kiln_lighting_run(f->lighting, &d->moment, &d->lighting, &error) ||
+    if (!kiln_lighting_run(f->lighting, &d->moment, NULL, &d->lighting, &error) ||
         !kiln_backdrop_draw(d->backdrop, &d->moment, &d->lighting, &error))
         fail_msg("%s", error.message);
     if (!f->solids)
@@ -392,7 +392,7 @@ static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *e
     drawing_place(d, particles, buried + 1, STEP);
     free(particles);
     d->pool.systems[0].next_serial = buried + 1;
-    bool ok = kiln_lighting_run(f->lighting, &d->moment, &d->lighting, error) &&
+    bool ok = kiln_lighting_run(f->lighting, &d->moment, NULL, &d->lighting, error) &&
               kiln_backdrop_draw(d->backdrop, &d->moment, &d->lighting, error);
     return ok && kiln_image_host(&d->backdrop_color, KILN_READ, error);
 }

@@ -98,7 +98,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
     drawing_place(d, particles, count, STEP);
     free(particles);
     d->pool.systems[0].next_serial = count;
-    if (!kiln_lighting_run(f->lighting, &d->moment, &d->lighting, &error) ||
+    if (!kiln_lighting_run(f->lighting, &d->moment, NULL, &d->lighting, &error) ||
         !kiln_backdrop_draw(d->backdrop, &d->moment, &d->lighting, &error) ||
         !kiln_solids_draw(f->solids, &d->moment, &d->entries, count, &error))
         fail_msg("%s", error.message);

@@ -66,8 +66,11 @@ const float *gas_view_draw(struct gas_view *f)
     assert_non_null(stage);
     float *picture = kiln_image_host(&f->picture, KILN_OVERWRITE, &error);
     memset(picture, 0, GAS_VIEW_FLOATS * sizeof *picture);
-    const struct kiln_volume_draw gas = {
-        .moment = &f->moment, .pool = &f->pool, .backdrop = &f->light, .depth = &f->depth};
+    const struct kiln_volume_draw gas = {.moment = &f->moment,
+                                         .pool = &f->pool,
+                                         .backdrop = &f->light,
+                                         .lighting = f->lighting,
+                                         .depth = &f->depth};
     assert_true(kiln_volume_draw(stage, &gas, &error));
     assert_true(kiln_volume_put_under(stage, KILN_VOLUME_ALL, &f->picture, &error));
     kiln_volume_destroy(&stage);

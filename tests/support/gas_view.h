@@ -18,6 +18,7 @@ struct gas_view {
     struct kiln_pool pool;
     struct kiln_image depth, picture;
     struct kiln_draw_backdrop light;
+    const struct kiln_lighting *lighting; /* what is in the way of lamps; NULL: nothing */
     uint32_t threads;
 };
 

@@ -238,7 +238,7 @@ struct picture draw_below(void *device, const char *text, const char *asset_root
     p.threads = kiln_threads_create(2);
     p.lights = p.threads ? kiln_lighting_create(device, p.moment, p.threads, &error) : NULL;
     struct kiln_lighting lighting;
-    if (!p.stage || !p.lights || !kiln_lighting_run(p.lights, p.moment, &lighting, &error) ||
+    if (!p.stage || !p.lights || !kiln_lighting_run(p.lights, p.moment, NULL, &lighting, &error) ||
         !kiln_backdrop_draw(p.stage, p.moment, &lighting, &error))
         fail_msg("%s", error.message);
     p.colors = kiln_image_host(&p.color, KILN_READ, &error);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "asset/atlas/blackbody.h"
-#include "draw/volume/flame_colors.h"
+#include "draw/light/flame_colors.h"
 #include "support/cmocka.h"
 #include "support/gas_fixture.h"
 #include "support/gas_view.h"
@@ -165,7 +165,7 @@ static void flames_light_the_smoke_beside_them(void **state)
     struct kiln_gas_look look = {.extinction = gas_view_value(1.0f),
                                  .albedo = gas_view_value3(0.8f, 0.8f, 0.8f),
                                  .intensity = gas_view_value(20.0f),
-                                 .light = true};
+                                 .glow = gas_view_value(1.0f)};
     struct kiln_gas *gas = gas_view_add(&f, look);
     gas_fixture_full(gas, 32, 2.0f / 32.0f, 0.2f, 0.0f, 0.0f);
     for (int i = 0; i < GAS_BRICK_CELLS; i++) { /* a brick in the lower left front corner burns */
@@ -176,7 +176,7 @@ static void flames_light_the_smoke_beside_them(void **state)
     const float *near = picture + MIDDLE - 4 * 8, *far = picture + MIDDLE + 4 * 20;
     assert_true(near[0] > 2.0f * far[0] && far[0] > 0.0f);
     assert_true(near[0] > near[1] && near[1] > near[2]);
-    f.scene->gas[0].look.light = false;
+    f.scene->gas[0].look.glow = gas_view_value(0.0f);
     assert_true(gas_view_draw(&f)[MIDDLE] == 0.0f);
     gas_view_close(&f);
 }
@@ -193,7 +193,7 @@ static void cells_do_not_change_the_light_of_flames(void **state)
         const struct kiln_gas_look look = {.extinction = gas_view_value(2.0f),
                                            .albedo = gas_view_value3(0.8f, 0.8f, 0.8f),
                                            .intensity = gas_view_value(20.0f),
-                                           .light = true};
+                                           .glow = gas_view_value(1.0f)};
         struct kiln_gas *gas = gas_view_add(&f, look);
         gas_fixture_ball(gas, n, 2.0f / (float)n, 0.4f, 1.0f, 1.0f);
         light[i] = luminance(gas_view_draw(&f) + MIDDLE + 4 * SIZE * 12); /* below the flames */
@@ -289,7 +289,7 @@ static void lamps_light_thin_smoke(void **state)
     f.light.counts.y = 1;
     f.light.lights[0] = (struct kiln_draw_light){.position_radius2 = {0.0f, 101.0f, 0.0f, 0.25f},
                                                  .color = {5000.0f, 0.0f, 0.0f, 0.5f}};
-    const double expected = 0.8 * 0.002 * 0.34 * 5000.0 / (100.0 * 100.0 + 0.25);
+    const double expected = 0.8 * 0.002 * 0.67 * 5000.0 / (100.0 * 100.0 + 0.25);
     const float *pixel = gas_view_draw(&f) + MIDDLE;
     assert_near((double)pixel[0] / expected, 1.0, 3e-3);
     assert_true(pixel[1] == 0.0f);
@@ -410,7 +410,7 @@ static void threads_and_vectors_make_no_difference(void **state)
     look.intensity = gas_view_value(5.0f);
     look.absorption = gas_view_value(1.0f);
     look.scattering = gas_view_value(0.5f);
-    look.light = true;
+    look.glow = gas_view_value(1.0f);
     gas_fixture_ball(gas_view_add(&f, look), 48, 2.0f / 48.0f, 0.4f, 1.0f, 0.9f);
     shine_from(&f, 0.48f, 0.6f, 0.64f);
     f.light.sky_top = f.light.sky_horizon = FLOAT4(0.2f, 0.3f, 0.4f, 0);

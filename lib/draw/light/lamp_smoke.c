@@ -134,7 +134,7 @@ const float *kiln_lamp_smoke_run(struct kiln_lamp_smoke *smoke, const struct kil
 {
     *count = 0;
     for (uint32_t i = 0; i < light_count; i++) {
-        if (!lights[i].casters.w)
+        if (!(lights[i].casters.w & 1u) || lights[i].casters.w & KILN_LAMP_THROUGH_SMOKE)
             continue;
         smoke->jobs[*count] = place_map(grid, &lights[i]);
         lights[i].casters.z = ++*count;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "draw/light/firelight.h"
+#include "draw/light/gas_light.h"
 #include "draw/light/lamps.h"
 #include "draw/light/lighting_gl.h"
 #include "draw/moment/instances.h"
@@ -26,6 +27,7 @@ struct kiln_lighting_stage {
     bool fire, smoke; /* whether the scene has any */
     bool sun;         /* whether the sun ever shines */
     struct kiln_smoke puffs;
+    struct kiln_gas_cells gas;
     struct kiln_smoke_shadow *shadow;
     float *depths;                      /* of both grids; then the extinction */
     struct kiln_lamp_smoke *lamp_smoke; /* NULL: not needed, here and below */
@@ -145,6 +147,7 @@ void kiln_lighting_footprint(const struct kiln_scene *scene, struct kiln_footpri
 {
     if (kiln_scene_has_smoke(scene))
         add_smoke(scene, footprint);
+    kiln_gas_cells_footprint(scene, footprint);
     if (kiln_shape_features(scene).solids)
         kiln_solid_shadow_footprint(scene, footprint);
     if (kiln_sun_shade_exists(scene))
@@ -169,6 +172,7 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     kiln_lamp_solids_destroy(&(*stage)->lamp_solids);
     free((*stage)->depths);
     kiln_smoke_finish(&(*stage)->puffs);
+    kiln_gas_cells_finish(&(*stage)->gas);
     kiln_smoke_shadow_destroy(&(*stage)->shadow);
     kiln_lamp_smoke_destroy(&(*stage)->lamp_smoke);
     free(*stage);
@@ -188,6 +192,7 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_moment *m
     };
     if (!kiln_smoke_gather(&stage->puffs, moment, stage->threads, error))
         return false;
+    stage->puffs.gas = &stage->gas;
     lighting->smoke = kiln_smoke_shadow_fill(stage->shadow, &stage->puffs, stage->threads, grids,
                                              stage->sun ? 2 : 1);
     if (!lighting->smoke)
@@ -222,8 +227,24 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_mo
             stage->lamp_shade, moment, stage->threads, lighting->lights, lighting->light_count,
             lighting->lamp_maps, lighting->lamp_solids.texels, error);
     for (uint32_t i = 0; lighting->lamplit && i < lighting->light_count; i++)
-        lighting->lights[i].casters.w |= lighting->lights[i].casters.w << 1;
+        lighting->lights[i].casters.w |= (lighting->lights[i].casters.w & 1u) << 1;
     return (!stage->shade || lighting->sunlit) && (!stage->lamp_shade || lighting->lamplit);
+}
+
+/* Adds the light of the flames of gas, where there is room for it beside that of particles. */
+static uint32_t add_gas_lights(struct kiln_lighting_stage *stage, uint32_t count,
+                               struct kiln_lighting *lighting)
+{
+    const uint32_t most = stage->scene->backdrop.light_count + KILN_MAX_FIRE_LIGHTS;
+    for (uint32_t i = 0; i < stage->gas.count; i++) {
+        const uint32_t domain = stage->gas.blocks[i].domain;
+        lighting->gas_lights[domain].first = count;
+        if (count + KILN_GAS_LIGHTS <= most)
+            count += kiln_gas_light_gather(&stage->gas.blocks[i], stage->threads,
+                                           lighting->lights + count);
+        lighting->gas_lights[domain].count = count - lighting->gas_lights[domain].first;
+    }
+    return count;
 }
 
 /* Gathers the lamps and the light of fire, and draws their shadow maps. */
@@ -233,6 +254,7 @@ static bool light_lamps(struct kiln_lighting_stage *stage, const struct kiln_mom
     uint32_t count = kiln_lamps_fill(moment, lighting->lights);
     if (stage->fire)
         count += kiln_firelight_gather(moment, stage->threads, lighting->lights + count);
+    count = add_gas_lights(stage, count, lighting);
     lighting->light_count = count;
     if (stage->lamp_maps) {
         lighting->lamp_maps = kiln_lamp_maps_run(stage->lamp_maps, moment, lighting->lights, count,
@@ -254,10 +276,12 @@ bool kiln_lighting_reads_particles(const struct kiln_lighting_stage *stage)
 }
 
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
-                       struct kiln_lighting *lighting, struct kiln_error *error)
+                       const struct kiln_pool *gas, struct kiln_lighting *lighting,
+                       struct kiln_error *error)
 {
     *lighting = (struct kiln_lighting){.run = ++stage->run, .gl = stage->gl};
-    if (!light_lamps(stage, moment, lighting, error))
+    if (!kiln_gas_cells_gather(&stage->gas, moment, gas, stage->threads, error) ||
+        !light_lamps(stage, moment, lighting, error))
         return false;
     if (!particles_count(stage))
         return true;

@@ -1,6 +1,7 @@
 /* This header declares the lighting stage, which runs first in stage 4. It computes the light of a
- * frame that follows from its particles: the light that fire sheds, and the shadows of smoke and
- * solid particles. The stages that draw the backdrop and the particles read the result. */
+ * frame that follows from its particles and gas: the light that fire sheds, and the shadows of
+ * smoke and solid particles. The stages that draw the backdrop and the particles read the result.
+ */
 #ifndef KILN_DRAW_LIGHT_LIGHTING_H
 #define KILN_DRAW_LIGHT_LIGHTING_H
 
@@ -21,9 +22,12 @@ struct kiln_lighting {
     uint64_t run;         /* number of the run, from 1 */
     uint32_t light_count; /* lamps, then the light of fire */
     struct kiln_draw_light lights[KILN_MOST_LAMPS];
-    const uint32_t *lamp_maps; /* shadow maps of the first lamp_map_count of kiln_lamp_maps_run; */
-    uint32_t lamp_map_count;   /* NULL: there are none */
-    uint64_t lamp_map_changes; /* a number that grows when a map changes */
+    struct kiln_light_range {
+        uint32_t first, count;
+    } gas_lights[KILN_MAX_GAS]; /* the lights of the flames of each domain, among `lights` */
+    const uint32_t *lamp_maps;  /* shadow maps of the first lamp_map_count of kiln_lamp_maps_run; */
+    uint32_t lamp_map_count;    /* NULL: there are none */
+    uint64_t lamp_map_changes;  /* a number that grows when a map changes */
     struct kiln_lamp_solid_maps lamp_solids; /* shadow maps of solid particles */
     bool smoke;                              /* there is smoke, and its grids are set */
     float4 sun_to_grid[3], sky_to_grid[3];   /* world positions to 0..1 in the grids */
@@ -57,8 +61,10 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
 /* Returns whether the stage reads particles on the host, so that moments must have them there. */
 bool kiln_lighting_reads_particles(const struct kiln_lighting_stage *stage);
 
-/* Computes the light of a moment's particles. */
+/* Computes the light of a moment's particles and gas. gas: the pool that has the gas, which may be
+ * another one than the moment's; NULL: there is none. */
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
-                       struct kiln_lighting *lighting, struct kiln_error *error);
+                       const struct kiln_pool *gas, struct kiln_lighting *lighting,
+                       struct kiln_error *error);
 
 #endif

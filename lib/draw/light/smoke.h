@@ -1,5 +1,5 @@
 /* A kiln_smoke holds the particles that throw a shadow, gathered once a moment into a compact
- * array. */
+ * array, and names the gas that does. */
 #ifndef KILN_DRAW_LIGHT_SMOKE_H
 #define KILN_DRAW_LIGHT_SMOKE_H
 
@@ -7,6 +7,7 @@
 #include "draw/moment/appearance.h"
 
 struct kiln_error;
+struct kiln_gas_cells;
 
 /* Describes a ball of smoke. */
 struct kiln_puff {
@@ -23,7 +24,8 @@ struct kiln_smoke {
     struct kiln_puff *puffs;
     uint32_t *counts; /* number of puffs in each chunk */
     uint32_t chunk_count;
-    uint32_t capacity; /* chunks that there is room for */
+    uint32_t capacity;                /* chunks that there is room for */
+    const struct kiln_gas_cells *gas; /* the gas that throws shadows, too; NULL: there is none */
 };
 
 /* Gathers the puffs of all systems that throw a shadow. `smoke` starts as zeros and can be gathered

@@ -1,7 +1,7 @@
 /* This file fills grids with the optical depth of smoke towards a light. Each particle is a ball
  * whose density falls off smoothly. It is added to the level of a pyramid whose cells suit its
  * size, so that a large puff costs no more cells than a small one. The levels of the pyramid are
- * added up, then summed along the light.
+ * added up, and gas is read in between; then all is summed along the light.
  *
  * The smoke is divided into parts, whose number depends on the amount of smoke alone. Each part has
  * a pyramid of its own. The parts are added up in order, so that threads do not change the result.
@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "draw/light/gas_cells.h"
 #include "shared/exact.h"
 
 enum {
@@ -44,6 +45,8 @@ struct box {
     float *finer;    /* levels 1 and coarser, interpolated along rows of the finest */
     bool coarse;     /* whether any level but the finest has contents */
     struct pyramid parts[MOST_PARTS];
+    struct kiln_gas_reader gas[KILN_MAX_GAS];
+    uint32_t gas_count;
 };
 
 struct kiln_smoke_shadow {
@@ -133,6 +136,25 @@ static void grow_bounds(const struct box *box, struct pyramid *part, const struc
     part->any = true;
 }
 
+/* Grows bounds by the gas that throws shadows. */
+static void grow_by_gas(const struct box *box, const struct kiln_gas_cells *gas,
+                        struct pyramid *part)
+{
+    for (uint32_t i = 0; i < gas->count; i++) {
+        const struct kiln_gas_block *block = &gas->blocks[i];
+        for (uint32_t k = 0; k < 8 && block->shadow; k++) {
+            float at[3];
+            for (int c = 0; c < 3; c++)
+                at[c] = block->corner[c] +
+                        block->edges[0][c] * (k & 1 ? block->high[0] : block->low[0]) +
+                        block->edges[1][c] * (k & 2 ? block->high[1] : block->low[1]) +
+                        block->edges[2][c] * (k & 4 ? block->high[2] : block->low[2]);
+            const struct kiln_puff corner = {.position = {at[0], at[1], at[2]}};
+            grow_bounds(box, part, &corner);
+        }
+    }
+}
+
 /* Finds bounds of the smoke along the grids' axes. Work item grid * parts + part is one part of the
  * smoke in one grid. */
 static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker)
@@ -144,6 +166,8 @@ static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker
         size_t index = work % shadow->parts;
         struct pyramid *part = &box->parts[index];
         part->any = false;
+        if (index == 0 && shadow->smoke->gas)
+            grow_by_gas(box, shadow->smoke->gas, part);
         uint32_t last = first_chunk(shadow, index + 1);
         for (uint32_t chunk = first_chunk(shadow, index); chunk < last; chunk++) {
             const struct kiln_puff *puffs = shadow->smoke->puffs + (size_t)chunk * KILN_SMOKE_CHUNK;
@@ -183,6 +207,23 @@ static bool place_grid(struct box *box, uint32_t parts)
             (float4){axis.x / edge_m, axis.y / edge_m, axis.z / edge_m, -box->origin[i] / edge_m};
     }
     return true;
+}
+
+/* Prepares to read gas at the middles of the cells of a grid that has its place. */
+static void place_gas(struct box *box, const struct kiln_gas_cells *gas)
+{
+    float origin[3] = {0.0f, 0.0f, 0.0f}, steps[3][3];
+    for (int i = 0; i < 3; i++) {
+        const float axis[3] = {box->axes[i].x, box->axes[i].y, box->axes[i].z};
+        for (int c = 0; c < 3; c++) {
+            origin[c] += axis[c] * (box->origin[i] + 0.5f * box->cell);
+            steps[i][c] = axis[c] * box->cell;
+        }
+    }
+    box->gas_count = 0;
+    for (uint32_t i = 0; gas && i < gas->count; i++)
+        if (gas->blocks[i].shadow)
+            box->gas[box->gas_count++] = kiln_gas_reader_of(&gas->blocks[i], origin, steps);
 }
 
 /* Holds up to BALLS balls of smoke, in cells of their levels, so that loops over balls are
@@ -446,6 +487,8 @@ static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct 
     }
     if (box->coarse)
         add_coarser(box->finer, EDGE, y, z, extinction);
+    for (uint32_t i = 0; i < box->gas_count; i++)
+        kiln_gas_reader_add(&box->gas[i], y, z, EDGE, extinction);
 }
 
 /* Computes the optical depth between each cell's centre and the light. above: from the light to the
@@ -511,6 +554,7 @@ bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_
     for (uint32_t i = 0; i < count; i++) {
         if (!place_grid(&shadow->boxes[i], shadow->parts))
             return false;
+        place_gas(&shadow->boxes[i], smoke->gas);
     }
     kiln_threads_for(threads, (size_t)count * shadow->parts, 1, deposit_parts, shadow);
     kiln_threads_for(threads, count, 1, add_levels, shadow);

@@ -12,7 +12,7 @@
 #include "draw/light/sun_shade.h"
 #include "draw/moment/appearance_blocks.h"
 #include "draw/volume/volume_glow.h"
-#include "draw/volume/volume_light.h"
+#include "draw/volume/volume_lamps.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_tiles.h"
 #include "scene/gas_extent.h"
@@ -23,7 +23,8 @@ struct kiln_volume_stage {
     enum kiln_simd simd;
     struct kiln_observer observer;
     struct kiln_flame_colors colors[KILN_MAX_GAS];
-    struct kiln_sun_shade *shade;   /* NULL: there are no objects */
+    struct kiln_sun_shade *shade; /* NULL: there are no objects */
+    struct kiln_volume_lamp lamps[KILN_MOST_LAMPS];
     struct kiln_volume_field field; /* of the domain that is being drawn, as all that follows */
     bool lit;                       /* the field is whole, with its light */
     struct kiln_volume_slices slices;
@@ -127,8 +128,8 @@ struct domain {
     struct kiln_volume_light light;
     struct kiln_volume_frame frame;
     float sky[3]; /* radiance of the whole sky, averaged */
-    bool glows;   /* flames light the smoke */
-    const struct kiln_draw_light *lamps;
+    float glow;   /* factor on the light of flames in their smoke */
+    const struct kiln_volume_lamp *lamps;
     uint32_t lamp_count;
 };
 
@@ -139,34 +140,58 @@ struct finish_job {
     bool lit; /* by flames */
 };
 
-/* Dims the sun in the cells of a block that objects hide it from. A cell counts as a ball. */
-static void shade_block(const struct kiln_volume_stage *s, const struct kiln_volume_frame *frame,
-                        struct kiln_gas_place brick, float *block)
+/* Finds the part of the sun that places of a block see past objects. A place counts as a ball of
+ * two cells. */
+static void find_sun_parts(const struct kiln_volume_stage *s, const struct kiln_volume_frame *frame,
+                           struct kiln_gas_place brick, float parts[VOLUME_PLACES])
 {
+    enum { EDGE = VOLUME_SPARSE, COUNT = EDGE * EDGE * EDGE };
     struct kiln_appearance_block balls;
-    alignas(64) float visible[KILN_LANES];
     float *const places[3] = {balls.position.x, balls.position.y, balls.position.z};
-    for (int32_t first = 0; first < GAS_BRICK_CELLS; first += KILN_LANES) {
+    for (int32_t first = 0; first < VOLUME_PLACES; first += KILN_LANES) {
         for (int32_t i = 0; i < KILN_LANES; i++) {
             const int32_t n = first + i;
-            const float x = (float)(brick.x * GAS_BRICK + n % GAS_BRICK) + 0.5f;
-            const float y = (float)(brick.y * GAS_BRICK + n / GAS_BRICK % GAS_BRICK) + 0.5f;
-            const float z = (float)(brick.z * GAS_BRICK + n / (GAS_BRICK * GAS_BRICK)) + 0.5f;
+            const float x = (float)(brick.x * GAS_BRICK + 2 * (n % EDGE)) + 0.5f;
+            const float y = (float)(brick.y * GAS_BRICK + 2 * (n / EDGE % EDGE)) + 0.5f;
+            const float z = (float)(brick.z * GAS_BRICK + 2 * (n / (EDGE * EDGE))) + 0.5f;
             for (int c = 0; c < 3; c++)
                 places[c][i] = frame->corner[c] + frame->edges[0][c] * x + frame->edges[1][c] * y +
                                frame->edges[2][c] * z;
-            balls.radius[i] = 0.5f * frame->cell_m;
-            balls.alive[i] = 1;
+            balls.radius[i] = frame->cell_m;
+            balls.alive[i] = n < COUNT;
         }
-        kiln_sun_shade_balls(s->shade, s->simd, &balls, visible);
-        for (int32_t i = 0; i < KILN_LANES; i++) {
-            const int32_t n = first + i;
-            float *cell = kiln_volume_cell(block, n % GAS_BRICK, n / GAS_BRICK % GAS_BRICK,
-                                           n / (GAS_BRICK * GAS_BRICK));
-            cell[VOLUME_SUN] *= visible[i];
-            cell[VOLUME_SCATTERED] *= visible[i];
-        }
+        kiln_sun_shade_balls(s->shade, s->simd, &balls, parts + first);
     }
+}
+
+/* Dims the sun in the cells of a block that objects hide it from. */
+static void shade_block(const struct kiln_volume_stage *s, const struct kiln_volume_frame *frame,
+                        struct kiln_gas_place brick, float *block)
+{
+    alignas(64) float parts[VOLUME_PLACES];
+    float row[GAS_BRICK];
+    find_sun_parts(s, frame, brick, parts);
+    for (int32_t z = 0; z < GAS_BRICK; z++)
+        for (int32_t y = 0; y < GAS_BRICK; y++) {
+            kiln_volume_spread(parts, y, z, row);
+            for (int32_t x = 0; x < GAS_BRICK; x++) {
+                float *cell = kiln_volume_cell(block, x, y, z);
+                cell[VOLUME_SUN] *= row[x];
+                cell[VOLUME_SCATTERED] *= row[x];
+            }
+        }
+}
+
+/* Adds the light of a lamp to a block. */
+static void light_block(const struct finish_job *job, struct kiln_gas_place brick,
+                        const struct kiln_volume_lamp *lamp, float *block)
+{
+    alignas(64) float parts[VOLUME_PLACES];
+    const bool clear = kiln_volume_lamp_is_clear(lamp);
+    kiln_volume_lamp_reach *reach = KILN_SIMD_PICK(kiln_volume_lamp_reach, job->stage->simd);
+    if (!clear)
+        reach(lamp, &job->domain->frame, brick, parts);
+    job->rows->add_lamp(&job->domain->frame, brick, lamp->light, clear ? NULL : parts, block);
 }
 
 /* Turns the part of the sky's light, and the light of flames, to the radiance that reaches each
@@ -177,7 +202,8 @@ static void finish_blocks(void *context, size_t begin, size_t end, uint32_t work
     const struct finish_job *job = context;
     const struct kiln_volume_field *field = &job->stage->field;
     const struct kiln_volume_glow *glow = &job->stage->glow;
-    const float *sky = job->domain->sky, intensity = job->domain->march.intensity;
+    const float *sky = job->domain->sky,
+                intensity = job->domain->glow * job->domain->march.intensity;
     for (size_t i = begin; i < end; i++) {
         const struct kiln_gas_place brick = kiln_volume_place(field, (uint32_t)i);
         float *block = kiln_volume_block(field, (uint32_t)i);
@@ -194,9 +220,8 @@ static void finish_blocks(void *context, size_t begin, size_t end, uint32_t work
             for (int c = 0; c < 3; c++)
                 cell[VOLUME_RED + c] = above * sky[c] + fire * glow->color[c];
         }
-        if (job->domain->lamp_count > 0)
-            job->rows->add_lamps(&job->domain->frame, brick, job->domain->lamps,
-                                 job->domain->lamp_count, block);
+        for (uint32_t n = 0; n < job->domain->lamp_count; n++)
+            light_block(job, brick, &job->domain->lamps[n], block);
         if (job->domain->light.sun && job->stage->shade)
             shade_block(job->stage, &job->domain->frame, brick, block);
     }
@@ -217,7 +242,7 @@ static bool light_domain(struct kiln_volume_stage *s, const struct domain *domai
     kiln_gas_closed(gas, fire.closed);
     if (!kiln_volume_light_run(&s->slices, &s->field, &domain->light, job.rows, s->threads, error))
         return false;
-    if (domain->glows && m->intensity > 0.0f &&
+    if (domain->glow * m->intensity > 0.0f &&
         !kiln_volume_glow_run(&s->glow, &s->field, &fire,
                               KILN_SIMD_PICK(kiln_volume_glow_rows, s->simd), s->threads, &job.lit,
                               error))
@@ -314,17 +339,40 @@ static void set_look(struct kiln_volume_stage *s, uint32_t number, float time_s,
     m->planes = s->planes;
     m->haze = b->floor_params.z > 0.0f && b->counts.z == 0 ? b : NULL;
     to->light.thickness = m->extinction * m->cell_m;
-    to->glows = look->light;
+    to->glow = kiln_scene_value(scene, &look->glow, time_s);
     if (!look->lights)
         return;
-    to->lamps = b->lights;
-    to->lamp_count = b->counts.y;
     const float part = 1.0f / 3.14159265f; /* of the irradiance: a white surface's radiance */
     set3(m->sun, part * b->sun_color.x, part * b->sun_color.y, part * b->sun_color.z);
     set3(to->sky, 0.5f * (b->sky_top.x + b->sky_horizon.x),
          0.5f * (b->sky_top.y + b->sky_horizon.y), 0.5f * (b->sky_top.z + b->sky_horizon.z));
     to->light.sun = m->sun[0] > 0.0f || m->sun[1] > 0.0f || m->sun[2] > 0.0f;
     to->light.sky = to->sky[0] > 0.0f || to->sky[1] > 0.0f || to->sky[2] > 0.0f;
+}
+
+/* Lists the lamps that light the smoke of a domain. The light of its own flames is not among them:
+ * volume_glow.h spreads it in the smoke. */
+static void set_lamps(struct kiln_volume_stage *s, uint32_t number,
+                      const struct kiln_volume_draw *draw, struct domain *to)
+{
+    const struct kiln_lighting *lighting = draw->lighting;
+    const struct kiln_draw_shapes *shapes = &draw->moment->shapes;
+    to->lamps = s->lamps;
+    for (uint32_t i = 0; i < draw->backdrop->counts.y && s->scene->gas[number].look.lights; i++) {
+        const struct kiln_light_range own =
+            lighting ? lighting->gas_lights[number] : (struct kiln_light_range){0, 0};
+        if (i >= own.first && i < own.first + own.count)
+            continue;
+        struct kiln_volume_lamp *lamp = &s->lamps[to->lamp_count++];
+        *lamp = (struct kiln_volume_lamp){.light = &draw->backdrop->lights[i],
+                                          .objects = {.shapes = shapes}};
+        if (!lighting)
+            continue;
+        lamp->casters = kiln_shape_set_of_lamp(lamp->light, shapes->counts.x);
+        lamp->objects.maps = lighting->lamp_maps;
+        lamp->objects.solid_maps = lighting->lamp_solids.texels;
+        lamp->smoke = lighting->lamp_smoke;
+    }
 }
 
 struct march_job {
@@ -380,6 +428,7 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
     struct domain domain = {.march.depth = depth};
     place_rays(s->scene, &s->scene->gas[number], gas, draw->moment, &domain);
     set_look(s, number, draw->moment->view.clock.x, draw->backdrop, &domain);
+    set_lamps(s, number, draw, &domain);
     set_detail(s->scene, &s->scene->gas[number], draw->moment, &domain.march);
     if (!(kept && s->lit) && !fill_field(s, &domain, gas, error))
         return false;

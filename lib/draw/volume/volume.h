@@ -9,7 +9,7 @@
 
 #include "base/footprint.h"
 #include "base/thread.h"
-#include "draw/moment/moment.h"
+#include "draw/light/lighting.h"
 #include "gpu/image.h"
 
 struct kiln_volume_stage;
@@ -39,6 +39,7 @@ struct kiln_volume_draw {
     const struct kiln_moment *moment;
     const struct kiln_pool *pool;              /* has the gas; not the moment's pool */
     const struct kiln_draw_backdrop *backdrop; /* the sun, the sky and lamps */
+    const struct kiln_lighting *lighting;      /* what is in the way of lamps; NULL: nothing */
     struct kiln_image *depth;                  /* of the scene, m */
     bool same; /* true: nothing but the view is other than in the last call */
 };

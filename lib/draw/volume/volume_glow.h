@@ -7,7 +7,7 @@
 #define KILN_DRAW_VOLUME_VOLUME_GLOW_H
 
 #include "base/simd.h"
-#include "draw/volume/flame_colors.h"
+#include "draw/light/flame_colors.h"
 #include "draw/volume/volume_field.h"
 
 enum {

@@ -8,6 +8,15 @@
 #include "draw/volume/volume_field.h"
 #include "shared/draw_layout.h"
 
+/* The octaves of the light that gas scatters, in parts of that of a white surface, and how much
+ * less than straight light the later ones are dimmed (Wrenninge et al., "Oz: The Great and
+ * Volumetric", 2013). */
+#define VOLUME_ONCE        0.34f
+#define VOLUME_TWICE       0.26f
+#define VOLUME_TWICE_DIMS  0.42f
+#define VOLUME_THRICE      0.07f
+#define VOLUME_THRICE_DIMS 0.16f
+
 enum {
     VOLUME_SKY_WAYS = 5,     /* directions of the sky */
     VOLUME_SLICE_MARGIN = 16 /* floats of zeros before and behind the rows of a slice */
@@ -44,9 +53,10 @@ struct kiln_volume_frame {
 struct kiln_volume_light_rows {
     /* Computes a row of a slice. */
     void (*sweep)(const struct kiln_volume_sweep *sweep, int32_t slice, int32_t row);
-    /* Adds the light of lamps to the light from all sides of a block. */
-    void (*add_lamps)(const struct kiln_volume_frame *frame, struct kiln_gas_place brick,
-                      const struct kiln_draw_light *lamps, uint32_t count, float *block);
+    /* Adds the light of a lamp to the light from all sides of a block. parts: of
+     * kiln_volume_lamp_reach; NULL: nothing is in its way. */
+    void (*add_lamp)(const struct kiln_volume_frame *frame, struct kiln_gas_place brick,
+                     const struct kiln_draw_light *lamp, const float *parts, float *block);
 };
 KILN_SIMD_DECLARE(const struct kiln_volume_light_rows, kiln_volume_light_rows);
 

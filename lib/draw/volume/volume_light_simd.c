@@ -2,7 +2,7 @@
  * light. The depth in the slice before is interpolated between four cells. */
 #include "base/eight.h"
 #include "base/real.h"
-#include "draw/volume/volume_light.h"
+#include "draw/volume/volume_lamps.h"
 #include "shared/lamp.h"
 
 /* Loads a row of cells of a brick. */
@@ -27,16 +27,16 @@ SIMD vf between(vf a, vf b, float part)
     return a + (b - a) * part;
 }
 
-/* Writes the parts of the sun that are scattered: octaves of the scattered light, each of which is
- * dimmed less than the one before (Wrenninge et al., "Oz: The Great and Volumetric", 2013). */
+/* Writes the parts of the sun that are scattered. */
 SIMD void write_sun(float *to, ptrdiff_t stride, struct eight depth)
 {
     struct eight once, more;
     EIGHT_EACH(k)
     {
         const vf t = depth.part[k];
-        once.part[k] = 0.34f * vf_exp(-t);
-        more.part[k] = 0.26f * vf_exp(-0.42f * t) + 0.07f * vf_exp(-0.16f * t);
+        once.part[k] = VOLUME_ONCE * vf_exp(-t);
+        more.part[k] = VOLUME_TWICE * vf_exp(-VOLUME_TWICE_DIMS * t) +
+                       VOLUME_THRICE * vf_exp(-VOLUME_THRICE_DIMS * t);
     }
     store_lanes(to + VOLUME_SUN, stride, once);
     store_lanes(to + VOLUME_SCATTERED, stride, more);
@@ -84,18 +84,19 @@ static void sweep(const struct kiln_volume_sweep *s, int32_t slice, int32_t row)
 
 /* ---- lamps ----------------------------------------------------------------------------------- */
 
-/* The part of a lamp's light, in that of a white surface, that smoke scatters once. */
-#define LAMP_SCATTERS 0.34f
-
-/* Smoke in the way of a lamp does not dim it. */
-static void add_lamps(const struct kiln_volume_frame *frame, struct kiln_gas_place brick,
-                      const struct kiln_draw_light *lamps, uint32_t count, float *block)
+static void add_lamp(const struct kiln_volume_frame *frame, struct kiln_gas_place brick,
+                     const struct kiln_draw_light *lamp, const float *parts, float *block)
 {
     const int32_t first[3] = {brick.x * GAS_BRICK, brick.y * GAS_BRICK, brick.z * GAS_BRICK};
+    float reach[GAS_BRICK];
+    for (int i = 0; i < GAS_BRICK; i++)
+        reach[i] = VOLUME_ONCE + VOLUME_TWICE + VOLUME_THRICE;
     for (int32_t i = 0; i < GAS_BRICK * GAS_BRICK; i++) {
         const int32_t y = i % GAS_BRICK, z = i / GAS_BRICK;
         float *row = kiln_volume_cell(block, 0, y, z) + VOLUME_RED;
-        struct eight sum[3];
+        if (parts)
+            kiln_volume_spread(parts, y, z, reach);
+        struct eight part = eight_load(reach);
         EIGHT_EACH(k)
         {
             const vf x = vf_count() + ((float)(first[0] + k * LANES) + 0.5f);
@@ -105,26 +106,20 @@ static void add_lamps(const struct kiln_volume_frame *frame, struct kiln_gas_pla
                 *place[c] = frame->corner[c] + frame->edges[1][c] * ((float)(first[1] + y) + 0.5f) +
                             frame->edges[2][c] * ((float)(first[2] + z) + 0.5f) +
                             frame->edges[0][c] * x;
-            for (int c = 0; c < 3; c++)
-                sum[c].part[k] = vf_all(0.0f);
-            for (uint32_t n = 0; n < count; n++) {
-                const struct vf3 towards = vf3_towards(lamps[n].position_radius2, at);
-                const vf square = vf3_dot(towards, towards);
-                const vf part = LAMP_SCATTERS * lamp_share(lamps[n], towards) /
-                                (square + (lamps[n].position_radius2.w + 1e-12f));
-                sum[0].part[k] += lamps[n].color.x * part;
-                sum[1].part[k] += lamps[n].color.y * part;
-                sum[2].part[k] += lamps[n].color.z * part;
-            }
+            const struct vf3 towards = vf3_towards(lamp->position_radius2, at);
+            const vf square = vf3_dot(towards, towards);
+            part.part[k] *=
+                lamp_share(*lamp, towards) / (square + (lamp->position_radius2.w + 1e-12f));
         }
-        float rgb[3][8];
-        for (int c = 0; c < 3; c++)
-            eight_store(rgb[c], sum[c]);
-        for (int c = 0; c < 3; c++)
-            for (int x = 0; x < 8; x++)
-                row[x * VOLUME_CELL + c] += rgb[c][x];
+        float lit[8];
+        eight_store(lit, part);
+        for (int x = 0; x < 8; x++) {
+            row[x * VOLUME_CELL] += lamp->color.x * lit[x];
+            row[x * VOLUME_CELL + 1] += lamp->color.y * lit[x];
+            row[x * VOLUME_CELL + 2] += lamp->color.z * lit[x];
+        }
     }
 }
 
-const struct kiln_volume_light_rows KILN_SIMD_NAME(kiln_volume_light_rows) = {
-    .sweep = sweep, .add_lamps = add_lamps};
+const struct kiln_volume_light_rows KILN_SIMD_NAME(kiln_volume_light_rows) = {.sweep = sweep,
+                                                                              .add_lamp = add_lamp};

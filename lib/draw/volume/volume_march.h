@@ -4,7 +4,7 @@
 #define KILN_DRAW_VOLUME_VOLUME_MARCH_H
 
 #include "base/simd.h"
-#include "draw/volume/flame_colors.h"
+#include "draw/light/flame_colors.h"
 #include "draw/volume/volume_field.h"
 #include "shared/draw_layout.h"
 

@@ -1,7 +1,7 @@
 /* Declares the light that flames emit by their temperature: that of a black body, by Planck's law,
  * in parts of its luminance at temperature 1. */
-#ifndef KILN_DRAW_VOLUME_FLAME_COLORS_H
-#define KILN_DRAW_VOLUME_FLAME_COLORS_H
+#ifndef KILN_DRAW_LIGHT_FLAME_COLORS_H
+#define KILN_DRAW_LIGHT_FLAME_COLORS_H
 
 #include "asset/atlas/blackbody.h"
 #include "shared/exact.h"

@@ -1,6 +1,6 @@
 /* This file tabulates the light of flames. Between two entries of a usual table, the light at 1000
  * kelvin changes by a tenth; interpolated linearly, it is right within a five-hundredth. */
-#include "draw/volume/flame_colors.h"
+#include "draw/light/flame_colors.h"
 
 void kiln_flame_colors_fill(struct kiln_flame_colors *colors, const struct kiln_observer *observer,
                             float cold_kelvin, float hot_kelvin)
