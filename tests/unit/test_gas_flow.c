@@ -293,8 +293,7 @@ static void end_scene(struct simulation *run, struct kiln_scene *scene)
 
 /* A puff of smoke in a wind that pulls at all air alike: dv/dt = pull (wind - v), so that from rest
  * it goes x = wind (t - (1 - exp(-pull t)) / pull). Smoke moves by the velocity before a step,
- * which is behind by half a step; air that the window reaches anew is at rest, and slows the wind a
- * little. */
+ * which is behind by half a step. */
 static void smoke_goes_with_the_wind(void **state)
 {
     (void)state;

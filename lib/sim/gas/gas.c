@@ -12,6 +12,7 @@
 #include "base/pages.h"
 #include "scene/gas_extent.h"
 #include "shared/random.h"
+#include "sim/gas/motion.h"
 #include "sim/gas/solids.h"
 #include "sim/gas/sources.h"
 #include "sim/world/force_params.h"
@@ -24,11 +25,6 @@
 /* Parts of a step are chosen for speeds so much greater than that of the step before. */
 #define SPEED_MARGIN 1.1f
 
-/* How a domain moves with its node, m/s and rad/s in its own axes and metres. */
-struct motion {
-    double velocity[3], spin[3];
-};
-
 struct gas_domain {
     const struct kiln_gas_domain *settings;
     struct gas_solver solver;
@@ -39,9 +35,9 @@ struct gas_domain {
     size_t lattice_points;
     struct kiln_gas_place lattice_at, lattice_cells; /* window that the lattice is of */
     uint32_t lattice_step;
-    struct gas_lattice held; /* of that lattice */
-    bool moves;              /* with a node */
-    struct motion motion;    /* at the end of the step */
+    struct gas_lattice held;  /* of that lattice */
+    bool moves;               /* with a node */
+    struct gas_motion motion; /* at the end of the step */
 };
 
 bool kiln_gas_stage_init(struct kiln_gas_stage *stage, const struct kiln_scene *scene,
@@ -200,32 +196,9 @@ static bool is_place(struct kiln_gas_place a, struct kiln_gas_place b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Returns how a domain moves, m/s and rad/s in its own axes and metres. */
-static struct motion motion_of(const struct kiln_node_frame *frame)
-{
-    struct motion motion;
-    double axis[3][3];
-    gas_axes(frame, axis);
-    for (int i = 0; i < 3; i++) {
-        motion.velocity[i] = motion.spin[i] = 0.0;
-        for (int c = 0; c < 3; c++) {
-            motion.velocity[i] += axis[i][c] * frame->velocity[c] / frame->scale;
-            motion.spin[i] += axis[i][c] * frame->spin[c];
-        }
-    }
-    return motion;
-}
-
-static void cross(const double a[3], const double b[3], double to[3])
-{
-    to[0] = a[1] * b[2] - a[2] * b[1];
-    to[1] = a[2] * b[0] - a[0] * b[2];
-    to[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Returns how fast the motion of a domain changes in a step, in its axes at the step's end: by its
  * velocities at both ends in the world. */
-static struct motion change_of(const struct run *run)
+static struct gas_motion change_of(const struct run *run)
 {
     const struct kiln_node_step at =
         kiln_node_step_at(run->stage->scene, run->domain->settings->attach.node, run->step);
@@ -235,15 +208,16 @@ static struct motion change_of(const struct run *run)
         change.velocity[c] = (at.on.velocity[c] - at.start.velocity[c]) / dt;
         change.spin[c] = (at.on.spin[c] - at.start.spin[c]) / dt;
     }
-    return motion_of(&change);
+    return gas_motion_of(&change);
 }
 
-/* Adds what air at rest in the world feels in a domain that moves: the negative acceleration of the
- * domain at each point. */
+/* Adds what air feels in a domain that moves: the negative acceleration of the domain at each
+ * point; and to the pull of a wind, whose air moves in the world, that of the air that is at rest
+ * there. */
 static void add_inertia(const struct run *run, const struct kiln_grid *grid, float4 *words,
                         struct gas_lattice *lattice)
 {
-    const struct motion now = run->domain->motion, change = change_of(run);
+    const struct gas_motion now = run->domain->motion, change = change_of(run);
     float4 *word = words;
     for (uint32_t z = 0; z < grid->size.z; z++)
         for (uint32_t y = 0; y < grid->size.y; y++)
@@ -252,12 +226,17 @@ static void add_inertia(const struct run *run, const struct kiln_grid *grid, flo
                                      (double)(grid->origin.y + (float)y * grid->high.y),
                                      (double)(grid->origin.z + (float)z * grid->high.z)};
                 double across[3], outwards[3], turning[3];
-                cross(now.spin, p, across);
-                cross(now.spin, across, outwards);
-                cross(change.spin, p, turning);
-                word->x -= (float)(change.velocity[0] + outwards[0] + turning[0]);
-                word->y -= (float)(change.velocity[1] + outwards[1] + turning[1]);
-                word->z -= (float)(change.velocity[2] + outwards[2] + turning[2]);
+                gas_cross(now.spin, p, across);
+                gas_cross(now.spin, across, outwards);
+                gas_cross(change.spin, p, turning);
+                const double pull = (double)word->w;
+                float more[3];
+                for (int c = 0; c < 3; c++)
+                    more[c] = (float)(change.velocity[c] + outwards[c] + turning[c] +
+                                      pull * (now.velocity[c] + across[c]));
+                word->x -= more[0];
+                word->y -= more[1];
+                word->z -= more[2];
             }
     for (int c = 0; c < 3; c++)
         lattice->twice_spin[c] = (float)(2.0 * now.spin[c]);
@@ -266,6 +245,24 @@ static void add_inertia(const struct run *run, const struct kiln_grid *grid, flo
 static bool has_lattice(const struct gas_domain *d)
 {
     return d->settings->force_count > 0 || d->moves;
+}
+
+/* Returns the drag of a domain in a step, 1/s. */
+static float drag_of(const struct run *run)
+{
+    const struct kiln_scene *scene = run->stage->scene;
+    const struct moment m = {scene, run->domain->settings, run->number,
+                             kiln_scene_time(scene, run->step)};
+    return setting(&m, &m.domain->drag);
+}
+
+/* Adds the drag of a domain to the pull of its forces: it holds all air, also where there is no
+ * gas.
+ */
+static void add_drag(float4 *words, size_t points, float drag)
+{
+    for (size_t i = 0; i < points; i++)
+        words[i].w += drag;
 }
 
 /* Fills the lattice of forces, unless it is that of the step and the window already. */
@@ -291,6 +288,7 @@ static bool fill_lattice(const struct run *run, struct gas_lattice *lattice)
         memset(d->lattice, 0, points * sizeof *d->lattice);
         if (d->settings->force_count > 0)
             run->forces->fill(run->forces->context, run->sim, run->number, &grid, step, d->lattice);
+        add_drag(d->lattice, points, drag_of(run));
         d->held = (struct gas_lattice){d->lattice, grid.size.x, grid.size.x * grid.size.y, {0}};
         if (d->moves)
             add_inertia(run, &grid, d->lattice, &d->held);
@@ -389,6 +387,18 @@ static struct gas_rest rest_of(const struct gas_domain *d)
     return rest;
 }
 
+/* Lets the air that the window has just reached move as forces have moved it. Where a domain moves,
+ * air that no window had before is at rest. */
+static void blow_new_air(const struct run *run, const struct gas_lattice *forces, float part)
+{
+    const struct gas_domain *d = run->domain;
+    const struct kiln_scene *scene = run->stage->scene;
+    const float blown_s = d->moves ? 0.0f : time_of(run, part) - kiln_scene_time(scene, 0);
+    if (d->solver.reached && d->settings->force_count > 0 && forces->points)
+        gas_new_air_blown(run->gas, d->solver.old_at, d->solver.old_cells, &d->solver.rest, forces,
+                          blown_s, drag_of(run));
+}
+
 /* Wakes the bricks that gas and sources reach, and finds the walls at the beginning of a substep.
  * They are found anew at the beginning of each step: a run that begins there then has the same. */
 static bool begin(struct run *run, struct gas_pass *pass, float part, struct kiln_error *error)
@@ -405,6 +415,8 @@ static bool begin(struct run *run, struct gas_pass *pass, float part, struct kil
         (!d->has_solids || run->gas->cells.x == 0 ||
          (part > 0.0f && gas_solids_are_of(&d->solids, run->gas)) ||
          move_solids(run, &d->solver.levels, part));
+    if (ok)
+        blow_new_air(run, &pass->forces, part);
     if (d->has_solids && run->gas->cells.x > 0)
         pass->walls = d->solids.walls;
     return ok || kiln_error_no_memory(error, "gas.%s", d->settings->name);
@@ -454,7 +466,9 @@ static bool run_domain(struct run *run, float dt, struct kiln_error *error)
             return false;
         run->done = left == 1 || part >= 1.0f - begins ? 1.0f : begins + part;
         const struct moment m = {run->stage->scene, settings, run->number, time_of(run, run->done)};
-        const struct kiln_gas_step step = constants_of(&m, part * dt, run->gas->kept);
+        struct kiln_gas_step step = constants_of(&m, part * dt, run->gas->kept);
+        if (has_lattice(d))
+            step.slow = 1.0f; /* the lattice has the drag */
         pass.step = &step;
         pass.stir = stir_of(&m, step.dt, run->stage->scene->seed + 0x73746972u + run->number);
         gas_sources_set_time(&d->sources, step.dt);
@@ -511,7 +525,7 @@ bool kiln_gas_stage_step(struct kiln_gas_stage *stage, struct kiln_pool *pool,
         if (d->moves) {
             const struct kiln_node_step at =
                 kiln_node_step_at(stage->scene, d->settings->attach.node, step);
-            d->motion = motion_of(&at.on);
+            d->motion = gas_motion_of(&at.on);
         }
         if (!gas_sources_set(&d->sources, pool, step, error) ||
             !run_domain(&run, stage->scene->dt_s, error))

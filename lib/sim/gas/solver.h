@@ -9,13 +9,8 @@
 #include "sim/gas/advect.h"
 #include "sim/gas/faces.h"
 #include "sim/gas/multigrid.h"
+#include "sim/gas/new_air.h"
 #include "sim/gas/passes.h"
-
-/* How air that is at rest in the world moves in a domain: its velocity at the origin of the
- * domain's frame, m/s, and how it turns about it, rad/s. */
-struct gas_rest {
-    float velocity[3], spin[3];
-};
 
 struct gas_list {
     gas_brick_place *brick;
@@ -49,8 +44,10 @@ struct gas_solver {
     double *added;                  /* smoke, of each active brick */
     bool has_walls, blows;          /* as gas_solver_prepare was told */
     struct gas_rest rest;           /* of the air that a window did not have before */
-    bool measures;                  /* times are taken */
-    double seconds[GAS_TIMERS];     /* of processors */
+    bool reached; /* gas_solver_prepare has moved the window: it was `old_cells` at `old_at` */
+    struct kiln_gas_place old_at, old_cells; /* old_cells all 0: there was none */
+    bool measures;                           /* times are taken */
+    double seconds[GAS_TIMERS];              /* of processors */
     double left_over; /* part of the divergence that the last step left, if one was asked for */
     /* The following are for passes on the host. */
     const struct gas_advect *advect;

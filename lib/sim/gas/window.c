@@ -2,6 +2,7 @@
  * substep. */
 #include <stdlib.h>
 
+#include "sim/gas/new_air.h"
 #include "sim/gas/solver.h"
 
 enum {
@@ -132,56 +133,6 @@ static bool is_closed(const struct kiln_gas_shape *shape)
     return closed;
 }
 
-/* Returns the velocity of resting air across a face. cell: in the domain, the one above the face.
- */
-static float rest_across(const struct gas_rest *rest, const struct kiln_gas_shape *shape, int axis,
-                         struct kiln_gas_place cell)
-{
-    const float corner[3] = {shape->corner.x, shape->corner.y, shape->corner.z};
-    const int32_t number[3] = {cell.x, cell.y, cell.z};
-    float place[3]; /* m: of the face */
-    for (int i = 0; i < 3; i++) {
-        const float half = i == axis ? 0.0f : 0.5f;
-        place[i] = corner[i] + ((float)number[i] + half) * shape->cell;
-    }
-    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    return rest->velocity[axis] + (rest->spin[a] * place[b] - rest->spin[b] * place[a]);
-}
-
-/* Returns whether a window has a face. cell: in the domain, the one above the face. */
-static bool has_face(struct kiln_gas_place at, struct kiln_gas_place cells, int axis,
-                     struct kiln_gas_place cell)
-{
-    return cells.x > 0 && cell.x >= at.x && cell.x < at.x + cells.x + (axis == 0) &&
-           cell.y >= at.y && cell.y < at.y + cells.y + (axis == 1) && cell.z >= at.z &&
-           cell.z < at.z + cells.z + (axis == 2);
-}
-
-/* Sets the faces of a new window that the old one did not have. */
-static void fill_rest(struct kiln_gas *gas, struct kiln_gas_place old_at, struct kiln_gas_place old,
-                      const struct gas_rest *rest)
-{
-    const struct kiln_gas_place n = gas->cells;
-    for (int axis = 0; axis < 3; axis++)
-        for (int32_t z = 0; z < n.z + (axis == 2); z++)
-            for (int32_t y = 0; y < n.y + (axis == 1); y++)
-                for (int32_t x = 0; x < n.x + (axis == 0); x++) {
-                    const struct kiln_gas_place cell = {gas->at.x + x, gas->at.y + y,
-                                                        gas->at.z + z};
-                    if (!has_face(old_at, old, axis, cell))
-                        gas->faces[axis][z * gas->plane + y * gas->row + x] =
-                            rest_across(rest, &gas->shape, axis, cell);
-                }
-}
-
-static bool is_still(const struct gas_rest *rest)
-{
-    bool still = true;
-    for (int i = 0; i < 3; i++)
-        still = still && rest->velocity[i] == 0.0f && rest->spin[i] == 0.0f;
-    return still;
-}
-
 static bool move_window(struct gas_solver *solver, const struct gas_region *box)
 {
     struct kiln_gas *gas = solver->gas;
@@ -202,8 +153,10 @@ static bool move_window(struct gas_solver *solver, const struct gas_region *box)
     gas_solver_free_window(solver); /* its pressure goes with the old window */
     if (!kiln_gas_set_window(gas, new_at, cells) || !init_window(solver))
         return false;
-    if (!is_still(&solver->rest))
-        fill_rest(gas, at, n, &solver->rest);
+    solver->reached = true;
+    solver->old_at = at;
+    solver->old_cells = n;
+    gas_new_air_rest(gas, at, n, &solver->rest);
     return true;
 }
 
@@ -302,6 +255,7 @@ bool gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regi
     const struct gas_region box = wanted_box(gas, regions, region_count);
     solver->has_walls = has_walls;
     solver->blows = blows;
+    solver->reached = false;
     if (box.high.x <= box.low.x || box.high.y <= box.low.y || box.high.z <= box.low.z) {
         solver->active.count = solver->pushed.count = 0;
         gas_solver_free_window(solver);
