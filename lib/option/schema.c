@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "option/schema_share.h"
 #include "option/value_form.h"
 
 /* The texts that stand for a value of any kind in a scene: a parameter, or arithmetic. */
@@ -118,16 +119,22 @@ void kiln_schema_members(const struct kiln_option *members, const char *variant,
 
 bool kiln_schema_write(FILE *out, const char *title, const struct kiln_option *rows)
 {
-    struct kiln_text text = {0}, root = {0};
-    add_members(rows, NULL, false, true, &root);
+    struct kiln_text text = {0}, whole = {0}, root = {0}, shared = {0};
+    add_members(rows, NULL, false, true, &whole);
+    if (!whole.failed)
+        kiln_schema_share(whole.data, &root, &shared);
     kiln_text_add(&text,
                   "{\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
                   "\"title\": \"%s\",\n\"definitions\": {",
                   title);
     kiln_value_schema_definitions(&text);
-    kiln_text_add(&text, "},\n%s\n", root.data ? root.data + 1 : "");
-    bool ok = !text.failed && !root.failed && fputs(text.data, out) >= 0 && fflush(out) == 0;
+    kiln_text_add(&text, "%s},\n%s\n", shared.data ? shared.data : "",
+                  root.data ? root.data + 1 : "");
+    const bool made = !text.failed && !whole.failed && !root.failed && !shared.failed;
+    const bool ok = made && fputs(text.data, out) >= 0 && fflush(out) == 0;
+    kiln_text_free(&shared);
     kiln_text_free(&root);
+    kiln_text_free(&whole);
     kiln_text_free(&text);
     return ok;
 }
