@@ -176,7 +176,7 @@ $ kiln check gas.yaml | grep -A 7 'sources:' | head -n 8
 1|            origin: [0, 0, 0]
 1|            direction: [0, 1, 0]
 1|            radius: 0.25 m
-1|        attach: none
+1|            surface: false
 $ kiln check gas.yaml >whole.yaml; [ "$(kiln check --hash gas.yaml)" = "$(kiln check --hash whole.yaml)" ]
 $ kiln check --origin gas.yaml | grep -E ' (fire|off|smoke|gas):|detail: 2'
 1|          gas: "fire"  # gas.yaml:6
