@@ -1,18 +1,26 @@
 /* This file expects how much of a domain gas fills: cones above its sources, which grow with time.
- * The front of a plume rises by about a fifth of the free-fall speed over the height of the domain,
- * and a plume widens by 0.22 m a metre; both were measured with a campfire, a fireball and a column
- * of smoke. Burning blows the base of the cone up. Where that says little, gas fills the whole
- * domain: under a closed top, above moving nodes and meshes, and where gas does not rise. */
+ * The front of a plume rises by about a quarter of the free-fall speed over three times the reach
+ * of its source, and a plume widens by 0.1 to 0.28 m a metre; both were measured with fires, a
+ * fireball and columns of smoke. Noise takes half of its amount from the heat of a source. Burning
+ * blows the base of the cone up. Where that says little, gas fills the whole domain: under a closed
+ * top, above moving nodes and meshes, and where gas does not rise. */
 #include "scene/gas_extent.h"
 
 #include <math.h>
 
 #include "shared/exact.h"
 
-static const double RISE = 0.2;   /* of the free-fall speed */
-static const double SLOPE = 0.22; /* m of radius a metre of height */
-static const double JET = 0.1;    /* of the velocity of a source, by which the front is faster */
-static const double JET_S = 0.5;  /* s: for which a jet keeps its way */
+static const double RISE = 0.25;  /* of the free-fall speed... */
+static const double WIDTHS = 3.0; /* ...over so many times the reach of the source */
+/* m of radius a metre of height, of a plume that nothing stirs, and what turbulence as strong as
+ * the buoyancy adds */
+static const double SLOPE = 0.1, STIRRED_SLOPE = 0.18;
+static const double JET = 0.1;   /* of the velocity of a source, by which the front is faster */
+static const double JET_S = 0.5; /* s: for which a jet keeps its way */
+
+/* Bricks from the gas to the end of what is active on its sides: one brick, and half of the one
+ * that it is in, on average. */
+static const double ASIDE = 1.5;
 
 static const double CORNERS = 0.2; /* of a square, beyond the circle in it */
 
@@ -35,6 +43,7 @@ struct rising {
     uint32_t number; /* of its system */
     double start_s, end_s;
     double speed, jet;      /* m/s: of the front at first, and what stays of it */
+    double slope;           /* m of radius a metre of height */
     double slower;          /* 1/s: by which hot gas that cools gets slower */
     double low[3], high[3]; /* m: of the domain */
     double brick;           /* m: edge of a brick */
@@ -67,26 +76,58 @@ static void set_domain(struct rising *r)
     r->brick = GAS_BRICK * (double)shape->cell;
 }
 
+/* Returns the cube root of a number from 1 on, by Newton's method. */
+static double cube_root(double x)
+{
+    double root = x;
+    for (int i = 0; i < 40; i++)
+        root = (2.0 * root + x / (root * root)) / 3.0;
+    return root;
+}
+
+/* Returns by how much burning makes the shape of a source wider. */
+static double burst_of(const struct rising *r, const struct kiln_gas_source *source)
+{
+    const double blown = most(r, &r->domain->burn.expand) * most(r, &source->fuel);
+    return r->domain->burn.enabled ? cube_root(fmax(0.5 * blown, 1.0)) : 1.0;
+}
+
+/* Returns how far a source reaches from its middle at most, m. */
+static double reach_of(const struct rising *r, const struct kiln_gas_source *source)
+{
+    const struct kiln_emitter *emit = &source->emit;
+    const bool edged = emit->shape == KILN_EMITTER_BOX || emit->shape == KILN_EMITTER_LINE;
+    double half = emit->shape == KILN_EMITTER_POINT || edged ? 0.0 : most(r, &emit->radius);
+    if (edged)
+        half = 0.5 *
+               fmax(most(r, &emit->size.x), fmax(most(r, &emit->size.y), most(r, &emit->size.z)));
+    return burst_of(r, source) * half + most(r, &source->reach);
+}
+
 /* Returns whether gas rises from small sources in a way that is known; fills in how. */
 static bool find_rise(struct rising *r)
 {
     const struct kiln_gas_domain *d = r->domain;
-    double hot = 0.0, smoke = 0.0, upwards = 0.0;
+    double hot = 0.0, smoke = 0.0, upwards = 0.0, reach = 0.0;
     for (uint32_t i = 0; i < d->source_count; i++) {
         const struct kiln_gas_source *s = &d->sources[i];
         if (s->from == KILN_GAS_FROM_SYSTEM || s->emit.shape > KILN_EMITTER_RING ||
-            s->emit.shape == KILN_EMITTER_CONE || !is_same_node(&s->emit.attach, &d->attach))
+            !is_same_node(&s->emit.attach, &d->attach))
             return false;
-        hot = fmax(hot, most(r, &s->temperature));
+        hot = fmax(hot, most(r, &s->temperature) * (1.0 - 0.5 * most(r, &s->noise)));
         if (d->burn.enabled && most(r, &s->fuel) > 0.0)
             hot = fmax(hot, 1.0);
         smoke = fmax(smoke, most(r, &s->smoke));
+        reach = fmax(reach, reach_of(r, s));
         upwards = fmax(upwards, most(r, &s->velocity.y));
     }
     const double height = r->high[1] - r->low[1];
     const double up = most(r, &d->buoyancy) * hot - most(r, &d->weight) * smoke;
-    r->speed = RISE * sqrt(fmax(up, 0.0) * height);
+    r->speed = RISE * sqrt(fmax(up, 0.0) * fmin(WIDTHS * reach, height));
     r->jet = JET * upwards;
+    r->slope =
+        SLOPE + STIRRED_SLOPE *
+                    fmin(most(r, &d->turbulence.strength) / fmax(most(r, &d->buoyancy), 1e-3), 1.0);
     r->slower = 0.5 * (most(r, &d->cool_even) + 0.5 * most(r, &d->cool_glow));
     return up > 0.0;
 }
@@ -104,15 +145,6 @@ static void half_of(const struct rising *r, const struct kiln_gas_source *source
         half[c] = flat && c == 1 ? 0.0 : edged ? 0.5 * fabs(value(r, edges[c], time_s)) : radius;
 }
 
-/* Returns the cube root of a number from 1 on, by Newton's method. */
-static double cube_root(double x)
-{
-    double root = x;
-    for (int i = 0; i < 40; i++)
-        root = (2.0 * root + x / (root * root)) / 3.0;
-    return root;
-}
-
 /* Finds the box about a source at all moments at which it is on. Returns false if it is off. */
 static bool find_base(const struct rising *r, const struct kiln_gas_source *source,
                       struct base *base)
@@ -120,8 +152,7 @@ static bool find_base(const struct rising *r, const struct kiln_gas_source *sour
     const struct kiln_emitter *emit = &source->emit;
     const struct kiln_value *origin[3] = {&emit->origin.x, &emit->origin.y, &emit->origin.z};
     const struct kiln_value *velocity[3] = {&source->velocity.x, NULL, &source->velocity.z};
-    const double blown = most(r, &r->domain->burn.expand) * most(r, &source->fuel);
-    const double burst = r->domain->burn.enabled ? cube_root(fmax(0.5 * blown, 1.0)) : 1.0;
+    const double burst = burst_of(r, source);
     bool on = false;
     for (int i = 0; i < MOMENTS; i++) {
         const double time_s = r->start_s + (r->end_s - r->start_s) * i / (MOMENTS - 1);
@@ -182,7 +213,7 @@ static double area_at(const struct rising *r, const struct base *bases, uint32_t
         struct rectangle whole, cut;
         if (y < b->low[1] - r->brick || y > top_of(r, b))
             continue;
-        const double wider = SLOPE * fmax(y - b->high[1], 0.0) + r->brick;
+        const double wider = r->slope * fmax(y - b->high[1], 0.0) + ASIDE * r->brick;
         for (int c = 0; c < 2; c++) {
             whole.low[c] = b->low[SIDES[c]] - wider;
             whole.high[c] = b->high[SIDES[c]] + wider;
