@@ -32,7 +32,7 @@ set(kiln_test_times
         fuzz.mesh golden.software gpu.baked gpu.billboards gpu.crowds gpu.instances gpu.lens gpu.long_loops gpu.oit gpu.shadows
         gpu.shutter gpu.sort gpu.sources gpu.states hostile_swap mutation.effects package.lintian unit.baked unit.host unit.motion
         unit.slots unit.gas_new_air versions.0.1"
-    "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort all.gpu.sources
+    "20 gpu.gas all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort all.gpu.sources
         all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers golden.suite gpu.backdrops
         queue.attacks report.page tree.flicker"
     "40 all.gpu.backdrops/2 all.gpu.baked all.gpu.crowds all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.events

@@ -113,7 +113,7 @@ static bool set_up(struct energy_run *energy_run, struct kiln_error *error)
     if (!energy_run->threads)
         return kiln_error_no_memory(error, "measurements");
     energy_run->simulate = kiln_simulate_create(NULL, energy_run->scene, KILN_SIMULATE_CPU,
-                                                energy_run->threads, error);
+                                                KILN_GAS_CPU, energy_run->threads, error);
     if (!energy_run->simulate)
         return false;
     const struct kiln_pool_layout layout = kiln_scene_pool_layout(energy_run->scene);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/temporary.h"
+#include "frame/technique.h"
 #include "job/state.h"
 #include "output/gas_vdb.h"
 #include "scene/instant.h"
@@ -131,7 +132,10 @@ static bool make_fire(struct fire *f, struct kiln_error *error)
         return false;
     if (!f->threads)
         return kiln_error_no_memory(error, "measurements");
-    f->simulate = kiln_simulate_create(NULL, f->scene, KILN_SIMULATE_CPU, f->threads, error);
+    const struct gas_kernels *kernels = f->sizes->kernels;
+    f->simulate =
+        kiln_simulate_create(kernels ? kernels->device : NULL, f->scene, KILN_SIMULATE_CPU,
+                             kernels ? KILN_GAS_GL : KILN_GAS_CPU, f->threads, error);
     if (!f->simulate)
         return false;
     const struct kiln_pool_layout layout = kiln_scene_pool_layout(f->scene);
@@ -235,7 +239,8 @@ static bool add_seconds(const struct fire *f, const char *measure, const double 
     double values[MAX_TURNS];
     for (uint32_t i = 0; i < f->steps; i++)
         values[i] = 1e9 * seconds[i] / f->active;
-    return kiln_bench_add_gas(f->sizes, f->size, measure, "auto", values, f->steps, error);
+    return kiln_bench_add_gas(f->sizes, f->size, measure, f->sizes->kernels ? "gas=gl" : "gas=cpu",
+                              values, f->steps, error);
 }
 
 static bool add_steps(const struct kiln_gas_sizes *sizes, const struct fire *fires,
@@ -303,22 +308,37 @@ static bool measure_fires(const struct kiln_gas_sizes *sizes, const char *state,
 
 /* ---- the suite ------------------------------------------------------------------------------- */
 
+static bool measure(const struct kiln_gas_sizes *sizes, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = sizes->run->params;
+    char state[KILN_PATH_SIZE], vdb[KILN_PATH_SIZE];
+    if (!kiln_path_join(state, params->scratch, "kiln-bench-gas.kilnstate", error) ||
+        !kiln_path_join(vdb, params->scratch, "kiln-bench-gas.vdb", error))
+        return false;
+    const bool ok = kiln_bench_gas_boxes(sizes, error) && measure_fires(sizes, state, vdb, error) &&
+                    measure_drawing(sizes, error);
+    unlink(state);
+    unlink(vdb);
+    return ok;
+}
+
 bool kiln_suite_gas(const struct kiln_bench_run *run, struct kiln_error *error)
 {
     struct kiln_gas_sizes sizes = {.run = run, .edges = {64, 128}, .count = KILN_GAS_SIZES};
-    char state[KILN_PATH_SIZE], vdb[KILN_PATH_SIZE];
+    struct kiln_techniques techniques;
     if (run->params->quick)
         sizes.edges[0] = 32;
     if (run->params->cells > 0)
         sizes.edges[0] = (int32_t)run->params->cells;
     if (run->params->quick || run->params->cells > 0)
         sizes.count = 1;
-    if (!kiln_path_join(state, run->params->scratch, "kiln-bench-gas.kilnstate", error) ||
-        !kiln_path_join(vdb, run->params->scratch, "kiln-bench-gas.vdb", error))
+    if (!kiln_techniques_choose(kiln_device_get_info(run->device), run->params->techniques,
+                                run->params->technique_count, &techniques, error))
         return false;
-    const bool ok = kiln_bench_gas_boxes(&sizes, error) &&
-                    measure_fires(&sizes, state, vdb, error) && measure_drawing(&sizes, error);
-    unlink(state);
-    unlink(vdb);
+    if (techniques.gas == KILN_GAS_CPU)
+        return measure(&sizes, error);
+    sizes.kernels = gas_kernels_create(run->device, error);
+    const bool ok = sizes.kernels && measure(&sizes, error);
+    gas_kernels_destroy(&sizes.kernels);
     return ok;
 }

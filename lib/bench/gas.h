@@ -3,6 +3,7 @@
 #define KILN_BENCH_GAS_H
 
 #include "bench/suite.h"
+#include "sim/gas/kernels.h"
 #include "sim/gas/solver.h"
 
 enum { KILN_GAS_SIZES = 2 };
@@ -12,6 +13,7 @@ struct kiln_gas_sizes {
     const struct kiln_bench_run *run;
     int32_t edges[KILN_GAS_SIZES];
     uint32_t count;
+    struct gas_kernels *kernels; /* NULL: technique `cpu` steps the gas */
 };
 
 /* Adds a row to the last part, whose x is the edge of a size. */

@@ -47,6 +47,7 @@ struct box {
     struct kiln_gas gas;
     struct gas_solver solver;
     struct kiln_threads *threads[MOST_THREADS];
+    struct gas_kernels *kernels; /* NULL: the host steps the gas */
     struct lane *lanes;
     size_t lane_count;
     struct kiln_gas_step step;
@@ -82,7 +83,7 @@ static void set_constants(struct box *box)
         .cool_even = 0.25f * dt,
         .hottest = 1.2f,
         .confinement = 0.125f * dt,
-        .smooth = 0.01f,
+        .smoothing = 0.01f,
         .keep_velocity = 1,
     };
     box->stir = (struct gas_stir){
@@ -146,11 +147,14 @@ static double resident_bytes(void)
     return second ? (double)strtoull(second, NULL, 10) * (double)sysconf(_SC_PAGESIZE) : 0.0;
 }
 
-static bool prepare(struct box *box)
+static bool prepare(struct box *box, struct kiln_error *error)
 {
     struct gas_region regions[2];
     const uint32_t count = regions_of(box, regions);
-    return gas_solver_prepare(&box->solver, regions, count, false, false);
+    const enum gas_failure failure =
+        gas_solver_prepare(&box->solver, regions, count, false, false, error);
+    return failure == GAS_STEPPED ||
+           (failure == GAS_NO_MEMORY && kiln_error_no_memory(error, "gas"));
 }
 
 static bool make(struct box *box, struct kiln_error *error)
@@ -171,9 +175,11 @@ static bool make(struct box *box, struct kiln_error *error)
             return kiln_error_no_memory(error, "gas");
     }
     set_constants(box);
-    if (!gas_solver_init(&box->solver, &box->gas, box->threads[MOST_THREADS - 1], simd) ||
-        !prepare(box))
+    if (!gas_solver_init(&box->solver, &box->gas, box->threads[MOST_THREADS - 1], simd,
+                         box->kernels))
         return kiln_error_no_memory(error, "gas");
+    if (!prepare(box, error))
+        return false;
     box->solver.measures = true;
     for (uint32_t i = 0; i < count; i++)
         light(&box->gas, &regions[i]);
@@ -197,6 +203,12 @@ static bool list_lanes(struct box *box, struct kiln_error *error)
     box->lanes = calloc(LANES, sizeof *box->lanes);
     if (!box->lanes)
         return kiln_error_no_memory(error, "measurements");
+    if (box->kernels) {
+        struct lane *lane = &box->lanes[box->lane_count++];
+        lane->name = "gl";
+        lane->threads = MOST_THREADS;
+        return kiln_simd_choose(&lane->simd, error);
+    }
     for (uint32_t k = 0; k < KILN_SIMD_COUNT; k++)
         for (uint32_t threads = 1; threads <= MOST_THREADS && kiln_simd_has(k); threads++) {
             struct lane *lane = &box->lanes[box->lane_count++];
@@ -226,8 +238,8 @@ static bool run_step(struct box *box, struct lane *lane, bool counts, struct kil
     solver->multigrid = KILN_SIMD_PICK(kiln_gas_multigrid, lane->simd);
     memset(solver->seconds, 0, sizeof solver->seconds);
     const double start_s = kiln_clock_seconds(), start_cpu_s = kiln_clock_cpu_seconds();
-    if (!prepare(box))
-        return kiln_error_no_memory(error, "gas");
+    if (!prepare(box, error))
+        return false;
     const enum gas_failure failure = gas_solver_step(solver, &pass, &hooks, CYCLES, 0.0, error);
     if (failure != GAS_STEPPED)
         return failure == GAS_STOPPED ||
@@ -300,10 +312,11 @@ struct found {
     double bytes, active; /* as in struct box */
 };
 
-static bool measure_box(const struct kiln_bench_run *run, int32_t edge, bool quarter,
+static bool measure_box(const struct kiln_gas_sizes *sizes, int32_t edge, bool quarter,
                         struct found *found, struct kiln_error *error)
 {
-    struct box box = {.run = run, .edge = edge, .quarter = quarter};
+    const struct kiln_bench_run *run = sizes->run;
+    struct box box = {.run = run, .edge = edge, .quarter = quarter, .kernels = sizes->kernels};
     kiln_bench_say(run, "a box of %d cells along an edge%s", edge,
                    quarter ? ", of which a quarter is active" : "");
     const double before = resident_bytes();
@@ -329,7 +342,7 @@ static bool measure_boxes(const struct kiln_gas_sizes *sizes, bool quarter, stru
     if (!kiln_bench_begin(sizes->run, &part, error))
         return false;
     for (uint32_t i = 0; i < sizes->count; i++)
-        if (!measure_box(sizes->run, sizes->edges[i], quarter, &found[i], error))
+        if (!measure_box(sizes, sizes->edges[i], quarter, &found[i], error))
             return false;
     return true;
 }

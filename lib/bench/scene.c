@@ -115,6 +115,12 @@ struct kiln_scene *kiln_bench_load_caller_scene(const struct kiln_bench_run *run
     return scene;
 }
 
+/* Returns whether a scene has what a stage works on. */
+static bool has_stage(const struct kiln_scene *scene, size_t stage)
+{
+    return strcmp(kiln_stage_name(stage), "gas") != 0 || scene->gas_count > 0;
+}
+
 bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error)
 {
     struct subject subject = {.run = run, .path = path};
@@ -126,7 +132,7 @@ bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct
         kiln_error_no_memory(error, "measurements");
     bool ok = scene && subject.samples && measure_frames(&subject, error);
     for (size_t stage = 0; stage < KILN_STAGE_COUNT && ok; stage++) {
-        if (is_wanted(run->params, kiln_stage_name(stage)))
+        if (is_wanted(run->params, kiln_stage_name(stage)) && has_stage(scene, stage))
             ok = measure_stage(&subject, stage, error);
     }
     free(subject.samples);

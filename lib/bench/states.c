@@ -40,7 +40,8 @@ static bool fill(struct state_bench *b, struct kiln_error *error)
         return false;
     if (!b->threads)
         return kiln_error_no_memory(error, "measurements");
-    b->simulate = kiln_simulate_create(NULL, b->scene, KILN_SIMULATE_CPU, b->threads, error);
+    b->simulate =
+        kiln_simulate_create(NULL, b->scene, KILN_SIMULATE_CPU, KILN_GAS_CPU, b->threads, error);
     if (!b->simulate)
         return false;
     const struct kiln_pool_layout layout = kiln_scene_pool_layout(b->scene);

@@ -288,8 +288,8 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
     loop->spares = kiln_spare_pictures_create();
     if (!loop->spares)
         return kiln_error_no_memory(error, "pictures");
-    loop->simulate =
-        kiln_simulate_create(device, loop->scene, loop->techniques.simulate, loop->threads, error);
+    loop->simulate = kiln_simulate_create(device, loop->scene, loop->techniques.simulate,
+                                          loop->techniques.gas, loop->threads, error);
     const struct kiln_stages_params stages = {.techniques = loop->techniques,
                                               .needs = needs,
                                               .threads = loop->threads,

@@ -304,6 +304,15 @@ static bool put_gas(struct kiln_stages *s, struct kiln_error *error)
             kiln_volume_put_under(s->volume, KILN_VOLUME_SMOKE, &s->smoke_color, error));
 }
 
+/* Brings gas to the host, where light and pictures read it. */
+static bool fetch_gas(struct kiln_pool *pool, struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < pool->gas_count; i++)
+        if (!kiln_gas_fetch(&pool->gas[i], error))
+            return false;
+    return true;
+}
+
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, struct kiln_pool *pool,
                       struct kiln_instant instant, uint32_t moment, uint32_t *drawn,
                       struct kiln_error *error)
@@ -311,7 +320,8 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
     struct kiln_stages *s = stages;
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     uint32_t solids = 0;
-    if (!fill_moment(s, before, pool, instant, moment == 0, error) ||
+    if ((s->volume && !RUN_PASS(s, KILN_PASS_gas, fetch_gas(pool, error), error)) ||
+        !fill_moment(s, before, pool, instant, moment == 0, error) ||
         !draw_scenery(s, &solids, error) || (s->volume && !draw_gas(s, pool, error)))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))

@@ -11,11 +11,12 @@
 #include "sim/step/simulate.h"
 #include "sort/sort.h"
 
-enum { KILN_STAGE_COUNT = 6, KILN_TECHNIQUE_SIZE = 32 };
+enum { KILN_STAGE_COUNT = 7, KILN_TECHNIQUE_SIZE = 32 };
 _Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold all choices");
 
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
+    enum kiln_gas_technique gas;
     enum kiln_sort_technique sort;
     uint32_t sort_number; /* N of "sort=NAME:N"; 0: the technique takes no number */
     enum kiln_backdrop_technique backdrop;
@@ -71,8 +72,8 @@ size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES
 void kiln_technique_describe(const struct kiln_techniques *techniques, size_t stage, char *out,
                              size_t size);
 
-/* Writes the techniques of all stages, for example "simulate=cpu sort=cpu backdrop=gl
- * raster=geometry bloom=gl composite=gl". */
+/* Writes the techniques of all stages, for example "simulate=cpu gas=cpu sort=cpu
+ * backdrop=gl raster=geometry bloom=gl composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 
 #endif

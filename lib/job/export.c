@@ -270,7 +270,8 @@ static bool write_gas(const struct export *x, uint32_t number, uint32_t frame,
         vdb.frame = &node;
     }
     make_uuid(x, &vdb, domain->name, frame, vdb.uuid);
-    return kiln_gas_vdb_write(&vdb, file, kiln_loop_threads(x->loop), &x->caller, voxels, error);
+    return kiln_gas_fetch(&kiln_loop_run(x->loop)->pool.gas[number], error) &&
+           kiln_gas_vdb_write(&vdb, file, kiln_loop_threads(x->loop), &x->caller, voxels, error);
 }
 
 static void tell(struct export *x, uint32_t frame, const char *name, const char *path,

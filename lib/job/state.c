@@ -337,8 +337,11 @@ static bool find_places(struct kiln_pool *pool, enum kiln_access access, struct 
         places->texels[i] = (uint32_t *)pool->canvases[i].texels;
         places->waiting[i] = (uint32_t *)pool->canvases[i].pending;
     }
-    for (uint32_t i = 0; i < pool->gas_count; i++)
+    for (uint32_t i = 0; i < pool->gas_count; i++) {
         places->gas[i] = &pool->gas[i];
+        if (access == KILN_READ && !kiln_gas_fetch(places->gas[i], error))
+            return false;
+    }
     return true;
 }
 

@@ -94,6 +94,14 @@ void kiln_gas_finish(struct kiln_gas *gas)
     *gas = (struct kiln_gas){.arrays = NULL};
 }
 
+bool kiln_gas_fetch(struct kiln_gas *gas, struct kiln_error *error)
+{
+    if (gas->away.is_newer && !gas->away.fetch(gas->away.context, error))
+        return false;
+    gas->away.is_newer = false;
+    return true;
+}
+
 /* ---- chunks ---------------------------------------------------------------------------------- */
 
 static void put_back(struct kiln_gas *gas, float *chunk)
@@ -227,6 +235,7 @@ bool kiln_gas_set_window(struct kiln_gas *gas, struct kiln_gas_place at,
     }
     memset(arrays, 0, ARRAYS * extent.floats * sizeof *arrays);
     gas->window++;
+    gas->away.is_newer = false;
     gas->at = at;
     gas->cells = cells;
     gas->bricks = bricks_of(cells);

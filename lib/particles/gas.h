@@ -54,6 +54,14 @@ struct kiln_gas_brick {
     float *chunk; /* holds all of them */
 };
 
+/* Says where the newest numbers of the state are, if a technique keeps them beside the host. */
+struct kiln_gas_away {
+    bool is_newer; /* faces, pressure and what cells carry are as they were some steps ago */
+    /* Brings them here. False with KILN_DEVICE_FAILED. */
+    bool (*fetch)(void *context, struct kiln_error *error);
+    void *context;
+};
+
 /* Cell (0, 0, 0) of each array is at its pointer; rows of cells follow each other along x, then y,
  * then z. The value of a face belongs to the cell above it on its axis. The upper faces of the
  * window lie behind its rows. */
@@ -75,8 +83,9 @@ struct kiln_gas {
      */
     double smoke, growth, due;
     float kept;
+    struct kiln_gas_away away;
     /* the following are memory */
-    float *arrays;
+    float *arrays;      /* of faces, and of pressure */
     float *free_chunks; /* linked by their first words */
     float **slabs;      /* that chunks were cut from */
     uint32_t slab_count;
@@ -124,8 +133,13 @@ static inline float kiln_gas_way_phase(uint32_t group, float time_s)
 void kiln_gas_init(struct kiln_gas *gas, const struct kiln_gas_shape *shape);
 void kiln_gas_finish(struct kiln_gas *gas);
 
+/* Sees to it that the state is on the host. Whoever reads faces, pressure, or what cells carry
+ * calls it before: a technique in GL keeps them there. */
+bool kiln_gas_fetch(struct kiln_gas *gas, struct kiln_error *error);
+
 /* Moves the window, or makes the first one. What lies in the old window and in the new one is kept;
- * what is new is at rest. False when memory is short: the gas then is as before. */
+ * what is new is at rest. The state is then on the host. False when memory is short: the gas then
+ * is as before. */
 bool kiln_gas_set_window(struct kiln_gas *gas, struct kiln_gas_place at,
                          struct kiln_gas_place cells);
 
@@ -145,10 +159,11 @@ bool kiln_gas_is_at_opening(const struct kiln_gas *gas, struct kiln_gas_place br
 void kiln_gas_keep_smoke(struct kiln_gas *gas, double moved, double smoke, double growth, float dt,
                          bool leaves);
 
-/* Copies the state to a domain of the same shape. */
+/* Copies the state, which is on the host, to a domain of the same shape. */
 bool kiln_gas_copy(struct kiln_gas *to, const struct kiln_gas *from);
 
-/* Adds the state to the sums of a state hash. A domain without gas and motion adds nothing. */
+/* Adds the state, which is on the host, to the sums of a state hash. A domain without gas and
+ * motion adds nothing. */
 void kiln_gas_hash(const struct kiln_gas *gas, uint32_t number, struct kiln_state_hash *hash);
 
 /* Returns the bytes of a window without its chunks, and those of an active brick. */

@@ -101,6 +101,8 @@ bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_er
     for (uint32_t i = 0; i < from->canvas_count; i++)
         kiln_canvas_copy(&to->canvases[i], &from->canvases[i]);
     for (uint32_t i = 0; i < from->gas_count; i++) {
+        if (!kiln_gas_fetch(&from->gas[i], error))
+            return false;
         if (!kiln_gas_copy(&to->gas[i], &from->gas[i]))
             return kiln_error_no_memory(error, "a copy of gas");
     }

@@ -33,6 +33,10 @@
  * nearest neighbours only. */
 #define GAS_MOST_CELLS 2
 
+/* A brick has gas if it has more than this anywhere. */
+#define GAS_LEAST_SMOKE 0.002f
+#define GAS_LEAST_HEAT  0.01f
+
 /* Holds the constants of one step. Times are in seconds, lengths in cells where a comment says so,
  * else in metres. */
 struct kiln_gas_step {
@@ -56,7 +60,7 @@ struct kiln_gas_step {
     float cool_even;        /* temperature that is lost in the step, at any temperature */
     float hottest;          /* greatest temperature */
     float confinement;      /* m/s of the step for each 1/s of vorticity */
-    float smooth;           /* part of the velocity's Laplacian that is added */
+    float smoothing;        /* part of the velocity's Laplacian that is added */
     uint keep_velocity;     /* 1: a corrected velocity that overshoots is given up; 0: clamped */
 };
 

@@ -40,7 +40,7 @@ static void step_to(struct moment *m, uint32_t step)
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(2);
     struct kiln_simulate *simulate =
-        kiln_simulate_create(m->device, m->scene, KILN_SIMULATE_CPU, threads, &error);
+        kiln_simulate_create(m->device, m->scene, KILN_SIMULATE_CPU, KILN_GAS_CPU, threads, &error);
     assert_non_null(simulate);
     for (m->step = 0; m->step < step;) {
         if (!kiln_simulate_step(simulate, &m->pool, ++m->step, &error))

@@ -367,7 +367,7 @@ static void continue_with(struct simulation *run, struct kiln_device *device,
 {
     struct kiln_error error = {0};
     struct kiln_simulate *other =
-        kiln_simulate_create(device, &fixture.scene, technique, run->threads, &error);
+        kiln_simulate_create(device, &fixture.scene, technique, KILN_GAS_CPU, run->threads, &error);
     if (!other)
         fail_msg("%s", error.message);
     for (uint32_t i = 0; i < steps; i++)
@@ -423,8 +423,8 @@ static void work_groups_may_have_any_size(void **state)
     }
     struct kiln_error error = {0};
     device->work_group_size = (uint32_t)device->info.max_work_group_invocations + 1;
-    assert_null(
-        kiln_simulate_create(device, &fixture.scene, KILN_SIMULATE_INPLACE, cpu.threads, &error));
+    assert_null(kiln_simulate_create(device, &fixture.scene, KILN_SIMULATE_INPLACE, KILN_GAS_CPU,
+                                     cpu.threads, &error));
     expect_error(&error, KILN_USAGE, "a work group has %u invocations; %s takes at most %d",
                  device->work_group_size, device->info.name,
                  device->info.max_work_group_invocations);
@@ -449,11 +449,13 @@ static void an_exact_device_is_needed(void **state)
     bool exact = device->info.exact;
     for (size_t i = 0; i < DEVICE_WAYS; i++) {
         struct kiln_error error = {0};
-        assert_null(kiln_simulate_create(NULL, &fixture.scene, WAYS[i].technique, NULL, &error));
+        assert_null(kiln_simulate_create(NULL, &fixture.scene, WAYS[i].technique, KILN_GAS_CPU,
+                                         NULL, &error));
         expect_error(&error, KILN_USAGE, "without a device, only simulate=cpu is allowed");
         error = (struct kiln_error){0};
         device->info.exact = false;
-        assert_null(kiln_simulate_create(device, &fixture.scene, WAYS[i].technique, NULL, &error));
+        assert_null(kiln_simulate_create(device, &fixture.scene, WAYS[i].technique, KILN_GAS_CPU,
+                                         NULL, &error));
         expect_error(&error, KILN_USAGE,
                      "%s computes inexactly and cannot simulate; use simulate=cpu",
                      device->info.name);

@@ -29,7 +29,7 @@ void gas_rig_start(struct gas_rig *rig, const struct kiln_gas_shape *shape, floa
     assert_true(kiln_gas_set_window(&rig->gas, none, shape->cells));
     for (int32_t i = 0; i < rig->gas.bricks.x * rig->gas.bricks.y * rig->gas.bricks.z; i++)
         assert_true(kiln_gas_brick_take(&rig->gas, &rig->gas.brick[i]));
-    assert_true(gas_solver_init(&rig->solver, &rig->gas, rig->threads, simd));
+    assert_true(gas_solver_init(&rig->solver, &rig->gas, rig->threads, simd, NULL));
 }
 
 void gas_rig_end(struct gas_rig *rig)
@@ -48,7 +48,8 @@ void gas_rig_run(struct gas_rig *rig, uint32_t steps)
     for (uint32_t i = 0; i < steps; i++) {
         struct kiln_error error = {0};
         struct gas_pass pass = {.gas = &rig->gas, .step = &rig->step};
-        assert_true(gas_solver_prepare(&rig->solver, &region, 1, false, false));
+        assert_int_equal(gas_solver_prepare(&rig->solver, &region, 1, false, false, &error),
+                         GAS_STEPPED);
         assert_int_equal(
             gas_solver_step(&rig->solver, &pass, &hooks, rig->cycles, rig->residual, &error),
             GAS_STEPPED);

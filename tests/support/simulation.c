@@ -10,17 +10,24 @@
 #include "support/device.h"
 #include "support/pools.h"
 
-void simulation_start_with(struct simulation *run, const struct kiln_scene *scene,
-                           struct kiln_device *device, enum kiln_simulate_technique technique,
-                           uint32_t threads)
+void simulation_start_gas(struct simulation *run, const struct kiln_scene *scene,
+                          struct kiln_device *device, enum kiln_simulate_technique technique,
+                          enum kiln_gas_technique gas, uint32_t threads)
 {
     struct kiln_error error = {0};
     *run = (struct simulation){.threads = kiln_threads_create(threads)};
     assert_non_null(run->threads);
-    run->simulate = kiln_simulate_create(device, scene, technique, run->threads, &error);
+    run->simulate = kiln_simulate_create(device, scene, technique, gas, run->threads, &error);
     if (!run->simulate)
         fail_msg("%s", error.message);
     pool_init_of(&run->pool, device, scene);
+}
+
+void simulation_start_with(struct simulation *run, const struct kiln_scene *scene,
+                           struct kiln_device *device, enum kiln_simulate_technique technique,
+                           uint32_t threads)
+{
+    simulation_start_gas(run, scene, device, technique, KILN_GAS_CPU, threads);
 }
 
 void simulation_start(struct simulation *run, const struct kiln_scene *scene,

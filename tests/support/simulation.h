@@ -18,6 +18,11 @@ void simulation_start_with(struct simulation *run, const struct kiln_scene *scen
                            struct kiln_device *device, enum kiln_simulate_technique technique,
                            uint32_t threads);
 
+/* The same with a technique of gas other than `cpu`. */
+void simulation_start_gas(struct simulation *run, const struct kiln_scene *scene,
+                          struct kiln_device *device, enum kiln_simulate_technique technique,
+                          enum kiln_gas_technique gas, uint32_t threads);
+
 /* Starts a run with the technique `inplace` on a device, or `cpu` if the device is NULL. */
 void simulation_start(struct simulation *run, const struct kiln_scene *scene,
                       struct kiln_device *device, uint32_t threads);

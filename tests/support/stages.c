@@ -21,7 +21,8 @@ void stages_open(struct kiln_stages *stages, struct kiln_simulate **simulate,
         fail_msg("%s", error.message);
     if (!simulate)
         return;
-    *simulate = kiln_simulate_create(device, scene, techniques->simulate, threads, &error);
+    *simulate =
+        kiln_simulate_create(device, scene, techniques->simulate, techniques->gas, threads, &error);
     if (!*simulate)
         fail_msg("%s", error.message);
 }

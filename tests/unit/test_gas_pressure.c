@@ -234,12 +234,12 @@ static double check(const struct box *box, double most)
             for (int32_t x = 0; x < n.x; x++)
                 level->f[gas_level_at(level, x, y, z)] = (float)f[cell_number(box, x, y, z)];
     gas_levels_solve(&l.levels, l.rows, l.threads, 2);
-    const double second = gas_levels_length(&l.levels, l.rows, true);
+    const double second = gas_level_length(&l.levels.level[0], l.rows, true);
     gas_levels_solve(&l.levels, l.rows, l.threads, 4);
-    const double sixth = gas_levels_length(&l.levels, l.rows, true);
+    const double sixth = gas_level_length(&l.levels.level[0], l.rows, true);
     gas_levels_solve(&l.levels, l.rows, l.threads, 16);
     if (balanced)
-        gas_levels_center(&l.levels);
+        gas_level_center(&l.levels.level[0]);
     for (int32_t z = 0; z < n.z; z++)
         for (int32_t y = 0; y < n.y; y++)
             for (int32_t x = 0; x < n.x; x++)

@@ -172,10 +172,9 @@ static double off_the_jet(const struct kiln_scene *scene, double narrow, double 
     for (int32_t i = 0; i < 64; i++) {
         struct kiln_gas_brick *brick = &gas.brick[i];
         const gas_brick_place at = {i % 4, i / 4 % 4, i / 16};
-        bool any = false;
         assert_true(kiln_gas_brick_take(&gas, brick));
         memset(brick->change, 0, (size_t)GAS_CHANGE * GAS_BRICK_CELLS * sizeof *brick->change);
-        gas_sources_add(&sources, &pass, kernels, at, &any);
+        gas_sources_add(&sources, &pass, kernels, at);
         for (int32_t k = 0; k < GAS_BRICK_CELLS; k++) {
             const double place[3] = {at.x * 8 + k % 8, at.y * 8 + k / 8 % 8, at.z * 8 + k / 64};
             const double p[3] = {(place[0] + 0.5) / 16 - 1.1, (place[1] + 0.5) / 16 - 1.05,

@@ -24,14 +24,15 @@ static void defaults_follow_the_device(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, NULL, text, &error));
-    assert_string_equal(text,
-                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        text, "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(false, true, NULL, text, &error));
     assert_string_equal(
-        text, "simulate=inplace sort=bitonic backdrop=gl raster=tiled bloom=gl composite=gl");
+        text,
+        "simulate=inplace gas=gl sort=bitonic backdrop=gl raster=tiled bloom=gl composite=gl");
     assert_true(choose(false, false, NULL, text, &error));
-    assert_string_equal(text,
-                        "simulate=cpu sort=cpu backdrop=gl raster=tiled bloom=gl composite=gl");
+    assert_string_equal(
+        text, "simulate=cpu gas=cpu sort=cpu backdrop=gl raster=tiled bloom=gl composite=gl");
 }
 
 static void auto_is_the_default(void **state)
@@ -78,6 +79,10 @@ static void each_stage_has_a_pass_of_its_own(void **state)
         assert_in_range(count, 2, KILN_MAX_TECHNIQUES - 1);
         assert_string_equal(names[0], "cpu");
         uint32_t pass = 1u << kiln_stage_pass(stage);
+        if (strcmp(kiln_stage_name(stage), "gas") == 0) { /* a step has its gas and its particles */
+            assert_int_equal(kiln_stage_pass(stage), KILN_PASS_simulate);
+            continue;
+        }
         assert_true((passes & pass) == 0);
         passes |= pass;
     }
@@ -90,8 +95,8 @@ static void a_device_without_gl_takes_cpu_alone(void **state)
 {
     (void)state;
     const struct kiln_device_info host = {.software = true, .exact = true, .name = "cpu"};
-    static const char *const flags[] = {"simulate=inplace", "sort=radix", "raster=geometry",
-                                        "bloom=gl", "composite=gl"};
+    static const char *const flags[] = {"simulate=inplace", "gas=gl",   "sort=radix",
+                                        "raster=geometry",  "bloom=gl", "composite=gl"};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         struct kiln_techniques techniques;
         struct kiln_error error = {0};
@@ -111,24 +116,25 @@ static void flags_force_a_technique(void **state)
     struct kiln_error error = {0};
     assert_true(choose(true, true, "simulate=inplace", text, &error));
     assert_string_equal(
-        text, "simulate=inplace sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        text, "simulate=inplace gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(true, true, "raster=geometry", text, &error));
     assert_string_equal(
-        text, "simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
+        text, "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
 
     assert_true(choose(true, true, "sort=radix", text, &error));
-    assert_string_equal(text,
-                        "simulate=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        text, "simulate=cpu gas=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(false, true, "raster=geometry", text, &error));
     assert_string_equal(
-        text, "simulate=inplace sort=bitonic backdrop=gl raster=geometry bloom=gl composite=gl");
+        text,
+        "simulate=inplace gas=gl sort=bitonic backdrop=gl raster=geometry bloom=gl composite=gl");
 
     assert_false(choose(true, true, "simulate", text, &error));
     expect_error(&error, KILN_USAGE, "technique 'simulate': expected stage=name");
     assert_false(choose(true, true, "simulat=cpu", text, &error));
     expect_error(&error, KILN_USAGE,
                  "technique: stage 'simulat' is not known (did you mean 'simulate'?); "
-                 "allowed are simulate, sort, backdrop, raster, bloom, composite");
+                 "allowed are simulate, gas, sort, backdrop, raster, bloom, composite");
     assert_false(choose(true, true, "sort=gpu", text, &error));
     expect_error(&error, KILN_USAGE,
                  "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
@@ -142,10 +148,11 @@ static void a_sort_can_be_spread_over_frames(void **state)
     struct kiln_error error = {0};
     assert_true(choose(true, true, "sort=oddeven:8", text, &error));
     assert_string_equal(
-        text, "simulate=cpu sort=oddeven:8 backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        text,
+        "simulate=cpu gas=cpu sort=oddeven:8 backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(true, true, "sort=oddeven", text, &error));
     assert_string_equal(
-        text, "simulate=cpu sort=oddeven backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        text, "simulate=cpu gas=cpu sort=oddeven backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     const char *const bad[] = {"0", "65", "-1", "", "8x", "8:8"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         char flag[32];
@@ -215,6 +222,10 @@ static void inexact_devices_do_not_simulate_or_sort(void **state)
     struct kiln_error error = {0};
     assert_false(choose(false, false, "sort=radix", text, &error));
     expect_error(&error, KILN_NO_DEVICE, "Device computes inexactly and cannot sort; use sort=cpu");
+    error = (struct kiln_error){0};
+    assert_false(choose(false, false, "gas=gl", text, &error));
+    expect_error(&error, KILN_NO_DEVICE,
+                 "Device computes inexactly and cannot step gas; use gas=cpu");
 }
 
 static void combinations_start_with_the_pinned_one(void **state)
@@ -222,7 +233,7 @@ static void combinations_start_with_the_pinned_one(void **state)
     (void)state;
     struct kiln_device_info gpu = {.gl = true, .exact = true, .name = "Device"};
     struct kiln_technique_list list;
-    static char seen[1024][256];
+    static char seen[2048][256];
     size_t count = 0;
     for (; kiln_techniques_combination(count, &list); count++) {
         const char *flags[KILN_STAGE_COUNT];
@@ -234,27 +245,34 @@ static void combinations_start_with_the_pinned_one(void **state)
         kiln_techniques_describe(&techniques, seen[count], sizeof seen[count]);
         for (size_t i = 0; i < count; i++)
             assert_string_not_equal(seen[i], seen[count]);
-        assert_true(count < 1023);
+        assert_true(count < 2047);
     }
-    assert_true(count >= 640);
-    assert_string_equal(seen[0],
-                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[1],
-                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=gl");
-    assert_string_equal(seen[2],
-                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=gl composite=cpu");
+    assert_true(count >= 1280);
     assert_string_equal(
-        seen[4], "simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
+        seen[0], "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(
-        seen[8], "simulate=cpu sort=cpu backdrop=cpu raster=instanced bloom=cpu composite=cpu");
-    assert_string_equal(seen[12],
-                        "simulate=cpu sort=cpu backdrop=cpu raster=tiled bloom=cpu composite=cpu");
-    assert_string_equal(seen[16],
-                        "simulate=cpu sort=cpu backdrop=gl raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(seen[32],
-                        "simulate=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        seen[1], "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=gl");
     assert_string_equal(
-        seen[128], "simulate=inplace sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        seen[2], "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=gl composite=cpu");
+    assert_string_equal(
+        seen[4],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[8],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=instanced bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[12],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=tiled bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[16], "simulate=cpu gas=cpu sort=cpu backdrop=gl raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[32],
+        "simulate=cpu gas=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[128], "simulate=cpu gas=gl sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        seen[256],
+        "simulate=inplace gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)

@@ -10,19 +10,6 @@
 #include "sim/gas/stir.h"
 #include "sim/gas/walls.h"
 
-#define REAL                        vf
-#define REAL_FN                     SIMD
-#define REAL_ALL(x)                 vf_all(x)
-#define REAL_SELECT(holds, yes, no) vf_select(holds, yes, no)
-#define REAL_MIN(a, b)              vf_min(a, b)
-#define REAL_MAX(a, b)              vf_max(a, b)
-#define REAL_RCP(x)                 vf_rcp_within(x)
-#include "shared/gas_cell.h"
-
-/* A brick has gas if it has more than this anywhere. */
-#define LEAST_SMOKE 0.002f
-#define LEAST_HEAT  0.01f
-
 /* Holds the velocity of a vector of cells, and its differences over two cells along each axis. */
 struct flow {
     vf u[3], change[3][3];
@@ -41,15 +28,13 @@ SIMD struct flow flow_at(velocities *velocity, int32_t x, int32_t y, int32_t z)
     return flow;
 }
 
-/* Computes the way of cells in a step, in cells: along the velocity half a step ago, by Taylor's
- * series. scale: of velocities to cells a step. */
+/* Computes the way of cells in a step, in cells. scale: of velocities to cells a step. */
 SIMD void way_of(const struct flow *flow, float scale, vf way[3])
 {
-    const float most = GAS_MOST_CELLS;
+    const vf *u = flow->u;
     for (int c = 0; c < 3; c++) {
-        const vf bent = (flow->u[0] * flow->change[c][0] + flow->u[1] * flow->change[c][1]) +
-                        flow->u[2] * flow->change[c][2];
-        way[c] = vf_clamp((flow->u[c] - (0.25f * scale) * bent) * scale, -most, most);
+        const vf *by = flow->change[c];
+        way[c] = gas_way(u[c], u[0], u[1], u[2], by[0], by[1], by[2], scale);
     }
 }
 
@@ -64,7 +49,7 @@ static struct reach find_ways(const struct kiln_gas_step *step, struct gas_works
                 vf way[3];
                 way_of(&flow, step->cells_a_velocity, way);
                 for (int c = 0; c < 3; c++) {
-                    const vf forth = way_forth(flow.u[c] * step->cells_a_velocity, way[c]);
+                    const vf forth = gas_way_forth(flow.u[c] * step->cells_a_velocity, way[c]);
                     most[c] = vf_max(most[c], vf_max(vf_abs(way[c]), vf_abs(forth)));
                     vf_store(&space->way[c][z][y][x], way[c]);
                 }
@@ -173,13 +158,11 @@ SIMD struct eight corrected(const float *own, const float *traced, const float *
 #define PAIR_OF(of, q) of(vf_load((q) + o), vf_load((q) + o + GAS_TRACED))
 #define CORNER(of)     of(of(PAIR_OF(of, a), PAIR_OF(of, b)), of(PAIR_OF(of, c), PAIR_OF(of, d)))
         const vf low = CORNER(vf_min), high = CORNER(vf_max);
-        const vf change = (now - forth.part[k]) * 0.5f, full = base + change;
-        const vf room = vf_max(vf_min(high - base, base - low), vf_all(0.0f));
-        const vf soft = base + change * (room * vf_rcp_within((room + vf_abs(change)) + 1e-20f));
-        const vf clamped = vf_min(vf_max(full, low), high);
-        const vi within = (full >= low) & (full <= high);
-        const vf value = vf_select((vi)limits->clamped.part[k], clamped, soft);
-        result.part[k] = vf_select((vi)limits->kept.part[k], vf_select(within, full, base), value);
+        const vf error = gas_error(now, forth.part[k]);
+        const vf value = vf_select((vi)limits->clamped.part[k], gas_clamped(base, error, low, high),
+                                   gas_softly(base, error, low, high));
+        result.part[k] =
+            vf_select((vi)limits->kept.part[k], gas_kept(base, error, low, high), value);
     }
     return result;
 }
@@ -202,13 +185,11 @@ static void spins(struct gas_workspace *space)
                 const struct flow flow = flow_at(space->velocity, x + 1, y + 1, z + 1);
                 vf spin[3];
                 spin_of(&flow, spin);
-                const vf square = (spin[0] * spin[0] + spin[1] * spin[1]) + spin[2] * spin[2];
-                vf_store(&space->spin[z][y][x], square * vf_rsqrt(vf_max(square, vf_all(1e-20f))));
+                vf_store(&space->spin[z][y][x], gas_spin(spin[0], spin[1], spin[2]));
             }
 }
 
-/* Adds the push of vorticity confinement, towards where vorticity is greatest (Fedkiw et al.,
- * "Visual Simulation of Smoke", 2001). */
+/* Adds the push of vorticity confinement, towards where vorticity is greatest. */
 SIMD void confine(const struct gas_workspace *space, const struct flow *flow, float push, int lane,
                   int32_t y, int32_t z, vf u[3])
 {
@@ -219,23 +200,21 @@ SIMD void confine(const struct gas_workspace *space, const struct flow *flow, fl
     const vf gx = vf_load(l + 1) - vf_load(l - 1);
     const vf gy = vf_load(l + up) - vf_load(l - up);
     const vf gz = vf_load(l + on) - vf_load(l - on);
-    const vf square = (gx * gx + gy * gy) + gz * gz;
-    const vf scale = push * vf_rsqrt(vf_max(square, vf_all(1e-8f)));
-    u[0] = u[0] + scale * (gy * spin[2] - gz * spin[1]);
-    u[1] = u[1] + scale * (gz * spin[0] - gx * spin[2]);
-    u[2] = u[2] + scale * (gx * spin[1] - gy * spin[0]);
+    const vf scale = gas_confinement(gx, gy, gz, push);
+    u[0] = gas_confined(u[0], scale, gy, spin[2], gz, spin[1]);
+    u[1] = gas_confined(u[1], scale, gz, spin[0], gx, spin[2]);
+    u[2] = gas_confined(u[2], scale, gx, spin[1], gy, spin[0]);
 }
 
-/* Adds a part of the velocity's Laplacian, which damps waves of two cells. */
+/* Adds a part of the velocity's Laplacian. */
 SIMD void smooth(velocities *velocity, float part, int lane, int32_t y, int32_t z, vf u[3])
 {
     for (int c = 0; c < 3; c++) {
         const float *p = &velocity[c][z + BELOW][y + BELOW][lane + BELOW];
         const ptrdiff_t up = GAS_EDGE_ROW, on = GAS_EDGE * up;
-        const vf around =
-            ((vf_load(p - 1) + vf_load(p + 1)) + (vf_load(p - up) + vf_load(p + up))) +
-            (vf_load(p - on) + vf_load(p + on));
-        u[c] = u[c] + part * (around - 6.0f * vf_load(p));
+        const vf around = gas_around(vf_load(p - 1), vf_load(p + 1), vf_load(p - up),
+                                     vf_load(p + up), vf_load(p - on), vf_load(p + on));
+        u[c] = gas_smoothed(u[c], vf_load(p), around, part);
     }
 }
 
@@ -255,16 +234,14 @@ static void find_pushes(const struct gas_pass *pass, gas_brick_place at,
         forces_of_row(pass, at, y, z, pushes->forces);
 }
 
-/* Applies forces over a step: the acceleration, with that of Coriolis in a domain that turns, and
- * the pull without overshooting. */
+/* Applies forces over a step. */
 SIMD void apply_forces(const struct gas_pass *pass, const struct pushes *pushes, int k, vf u[3])
 {
     const float dt = pass->step->dt, *turn = pass->forces.twice_spin;
-    const vf slower = vf_rcp_within(1.0f + dt * pushes->forces[3].part[k]);
-    const vf across[3] = {u[1] * turn[2] - u[2] * turn[1], u[2] * turn[0] - u[0] * turn[2],
-                          u[0] * turn[1] - u[1] * turn[0]};
-    for (int c = 0; c < 3; c++)
-        u[c] = (u[c] + dt * (pushes->forces[c].part[k] + across[c])) * slower;
+    const vf slower = gas_slowed(pushes->forces[3].part[k], dt), x = u[0], y = u[1], z = u[2];
+    u[0] = gas_forced(x, pushes->forces[0].part[k], y, turn[2], z, turn[1], dt, slower);
+    u[1] = gas_forced(y, pushes->forces[1].part[k], z, turn[0], x, turn[2], dt, slower);
+    u[2] = gas_forced(z, pushes->forces[2].part[k], x, turn[1], y, turn[0], dt, slower);
 }
 
 /* Pushes LANES cells of a row. */
@@ -274,15 +251,15 @@ SIMD void push_cells(const struct gas_pass *pass, struct gas_workspace *space,
 {
     const struct kiln_gas_step *step = pass->step;
     const vf hot = gas->temperature, smoke = gas->smoke;
-    if (step->smooth > 0.0f)
-        smooth(space->velocity, step->smooth, k * LANES, y, z, u);
-    u[0] = u[0] + (hot * step->rise.x - smoke * step->sink.x);
-    u[1] = u[1] + (hot * step->rise.y - smoke * step->sink.y);
-    u[2] = u[2] + (hot * step->rise.z - smoke * step->sink.z);
+    if (step->smoothing > 0.0f)
+        smooth(space->velocity, step->smoothing, k * LANES, y, z, u);
+    u[0] = gas_buoyant(u[0], hot, smoke, step->rise.x, step->sink.x);
+    u[1] = gas_buoyant(u[1], hot, smoke, step->rise.y, step->sink.y);
+    u[2] = gas_buoyant(u[2], hot, smoke, step->rise.z, step->sink.z);
     if (step->confinement > 0.0f)
         confine(space, flow, step->confinement, k * LANES, y, z, u);
     if (pass->stir.strength > 0.0f) {
-        const vf there = vf_min((smoke + hot) + gas->flame, vf_all(1.0f)) * pass->stir.strength;
+        const vf there = gas_stirred(smoke, hot, gas->flame, pass->stir.strength);
         for (int c = 0; c < 3; c++)
             u[c] = u[c] + there * pushes->noise[c].part[k];
     }
@@ -450,8 +427,9 @@ static struct gas_found react(const struct gas_pass *pass, gas_brick_place at,
             if (solid)
                 hold_solids(brick, solid, gas_row_of_brick(y, z), expansions);
         }
-    const vi some = (sums.most[GAS_SMOKE] > LEAST_SMOKE) | (sums.most[GAS_FUEL] > LEAST_SMOKE) |
-                    (sums.most[GAS_TEMPERATURE] > LEAST_HEAT) | (sums.most[GAS_FLAME] > LEAST_HEAT);
+    const vi some =
+        (sums.most[GAS_SMOKE] > GAS_LEAST_SMOKE) | (sums.most[GAS_FUEL] > GAS_LEAST_SMOKE) |
+        (sums.most[GAS_TEMPERATURE] > GAS_LEAST_HEAT) | (sums.most[GAS_FLAME] > GAS_LEAST_HEAT);
     return (struct gas_found){.has_gas = any(some),
                               .is_wrong = has_nan(sums.wrong),
                               .moved = sum_of_eight(sums.moved),

@@ -27,6 +27,8 @@ static void gather_extras(const struct around *around, struct gas_workspace *spa
             }
 }
 
+#define MIX(a, b, part) ((a) + ((b) - (a)) * (part))
+
 /* Interpolates a group of extra floats between the eight cells around a place. */
 SIMD void mix_extras(const float *extras, const struct places *places, int i, float *to)
 {

@@ -12,6 +12,7 @@
 #include "base/pages.h"
 #include "scene/gas_extent.h"
 #include "shared/random.h"
+#include "sim/gas/kernels.h"
 #include "sim/gas/motion.h"
 #include "sim/gas/solids.h"
 #include "sim/gas/sources.h"
@@ -40,12 +41,15 @@ struct gas_domain {
     struct gas_motion motion; /* at the end of the step */
 };
 
-bool kiln_gas_stage_init(struct kiln_gas_stage *stage, const struct kiln_scene *scene,
+bool kiln_gas_stage_init(struct kiln_gas_stage *stage, struct kiln_device *device,
+                         const struct kiln_scene *scene, enum kiln_gas_technique technique,
                          struct kiln_threads *threads, struct kiln_error *error)
 {
     *stage = (struct kiln_gas_stage){.scene = scene, .threads = threads};
     if (scene->gas_count == 0)
         return true;
+    if (technique == KILN_GAS_GL && !(stage->kernels = gas_kernels_create(device, error)))
+        return false;
     stage->domains = calloc(scene->gas_count, sizeof *stage->domains);
     if (!stage->domains)
         return kiln_error_no_memory(error, "gas");
@@ -72,6 +76,7 @@ void kiln_gas_stage_finish(struct kiln_gas_stage *stage)
         free(d->lattice);
     }
     free(stage->domains);
+    gas_kernels_destroy(&stage->kernels);
     *stage = (struct kiln_gas_stage){.count = 0};
 }
 
@@ -137,7 +142,7 @@ static struct kiln_gas_step constants_of(const struct moment *m, float dt, float
     step.cool = setting(m, &d->cool_glow) * dt;
     step.cool_even = setting(m, &d->cool_even) * dt;
     step.confinement = 0.5f * setting(m, &d->vorticity) * dt;
-    step.smooth = exact_min(SMOOTHING * dt, MOST_SMOOTHED);
+    step.smoothing = exact_min(SMOOTHING * dt, MOST_SMOOTHED);
     step.keep_velocity = d->burn.enabled;
     if (d->burn.enabled)
         fill_burning(&step, m);
@@ -302,10 +307,24 @@ static bool fill_lattice(const struct run *run, struct gas_lattice *lattice)
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
-static double add_sources(void *context, const struct gas_pass *pass, gas_brick_place at, bool *any)
+static bool add_sources(void *context, const struct gas_pass *pass, gas_brick_place at)
 {
     const struct run *run = context;
-    return gas_sources_add(&run->domain->sources, pass, run->domain->solver.advect, at, any);
+    return gas_sources_add(&run->domain->sources, pass, run->domain->solver.advect, at);
+}
+
+static bool brings(void *context, uint32_t source, struct gas_brought *brought)
+{
+    const struct run *run = context;
+    return gas_sources_brings(&run->domain->sources, source, brought);
+}
+
+static bool reach(void *context, const struct gas_pass *pass, uint32_t source, gas_brick_place at,
+                  float4 *cells)
+{
+    const struct run *run = context;
+    const struct gas_domain *d = run->domain;
+    return gas_sources_reach(&d->sources, pass, d->solver.advect, source, at, cells);
 }
 
 /* Returns the clip time after a part of the step. */
@@ -321,12 +340,21 @@ static bool move_solids(struct run *run, const struct gas_levels *levels, float 
                            time_of(run, part));
 }
 
+static void show_walls(const struct run *run, struct gas_pass *pass)
+{
+    const struct gas_solids *solids = &run->domain->solids;
+    pass->walls = solids->walls;
+    pass->walls_made = solids->made;
+    pass->emptied = solids->emptied;
+    pass->emptied_count = solids->emptied_count;
+}
+
 static bool move_walls(void *context, struct gas_pass *pass, const struct gas_levels *levels)
 {
     struct run *run = context;
     if (!move_solids(run, levels, run->done))
         return false;
-    pass->walls = run->domain->solids.walls;
+    show_walls(run, pass);
     return true;
 }
 
@@ -338,7 +366,8 @@ static bool report(struct run *run, enum gas_failure failure, struct kiln_error 
         return failure == GAS_STEPPED;
     if (failure == GAS_NO_MEMORY)
         return kiln_error_no_memory(error, "gas.%s", run->domain->settings->name);
-    gas_solver_find_wrong(&run->domain->solver, &cell);
+    if (kiln_gas_fetch(run->gas, error))
+        gas_solver_find_wrong(&run->domain->solver, &cell);
     return kiln_error_set(
         error, KILN_DEVICE_FAILED,
         "gas.%s: found a number that is not finite in step %u at (%.3g, %.3g, %.3g) m; smaller "
@@ -409,17 +438,19 @@ static bool begin(struct run *run, struct gas_pass *pass, float part, struct kil
         regions[i] = d->sources.source[i].region;
     d->solver.rest = rest_of(d);
     *pass = (struct gas_pass){.gas = run->gas};
-    const bool ok =
-        gas_solver_prepare(&d->solver, regions, d->sources.count, d->has_solids, has_lattice(d)) &&
-        fill_lattice(run, &pass->forces) &&
-        (!d->has_solids || run->gas->cells.x == 0 ||
-         (part > 0.0f && gas_solids_are_of(&d->solids, run->gas)) ||
-         move_solids(run, &d->solver.levels, part));
+    const enum gas_failure failure = gas_solver_prepare(&d->solver, regions, d->sources.count,
+                                                        d->has_solids, has_lattice(d), error);
+    if (failure != GAS_STEPPED)
+        return report(run, failure, error);
+    const bool ok = fill_lattice(run, &pass->forces) &&
+                    (!d->has_solids || run->gas->cells.x == 0 ||
+                     (part > 0.0f && gas_solids_are_of(&d->solids, run->gas)) ||
+                     move_solids(run, &d->solver.levels, part));
     if (ok)
         blow_new_air(run, &pass->forces, part);
     if (d->has_solids && run->gas->cells.x > 0)
-        pass->walls = d->solids.walls;
-    return ok || kiln_error_no_memory(error, "gas.%s", d->settings->name);
+        show_walls(run, pass);
+    return ok || report(run, GAS_NO_MEMORY, error);
 }
 
 static void warn(struct run *run)
@@ -436,29 +467,17 @@ static void warn(struct run *run)
              settings->name, run->step, left, settings->residual);
 }
 
-/* Lets the groups of ways whose turn it is begin anew: what cells carry then came from where it is.
- */
-static void begin_ways(struct kiln_gas *gas, float start_s, float end_s)
-{
-    const size_t bricks = (size_t)gas->bricks.x * (size_t)gas->bricks.y * (size_t)gas->bricks.z;
-    const size_t words = (size_t)GAS_BRICK_CELLS * GAS_CARRIED;
-    const uint32_t first = kiln_gas_group(&gas->shape, GAS_CAME_FROM);
-    for (uint32_t group = 0; gas->shape.detailed && group < 2; group++) {
-        if (kiln_gas_way_phase(group, end_s) >= kiln_gas_way_phase(group, start_s))
-            continue;
-        for (size_t i = 0; i < bricks; i++)
-            if (gas->brick[i].extras)
-                memset(gas->brick[i].extras + (first + group) * words, 0, words * sizeof(float));
-    }
-}
-
 static bool run_domain(struct run *run, float dt, struct kiln_error *error)
 {
     struct gas_domain *d = run->domain;
     const struct kiln_gas_domain *settings = d->settings;
-    const struct gas_hooks hooks = {run, add_sources, d->has_solids ? move_walls : NULL};
+    const struct gas_hooks hooks = {.context = run,
+                                    .add = add_sources,
+                                    .brings = brings,
+                                    .reach = reach,
+                                    .move_walls = d->has_solids ? move_walls : NULL};
     const uint32_t most = settings->substeps > 0 ? settings->substeps : KILN_MAX_SUBSTEPS;
-    begin_ways(run->gas, run->start_s, time_of(run, 1.0f));
+    gas_solver_begin_ways(&d->solver, run->start_s, time_of(run, 1.0f));
     for (uint32_t left = most; left > 0 && run->done < 1.0f; left--) {
         const float part = next_part(run, dt, left), begins = run->done;
         struct gas_pass pass;
@@ -510,7 +529,8 @@ bool kiln_gas_stage_step(struct kiln_gas_stage *stage, struct kiln_pool *pool,
         struct gas_domain *d = &stage->domains[i];
         if (!d->settings->enabled)
             continue;
-        if (!d->solver.gas && !gas_solver_init(&d->solver, &pool->gas[i], stage->threads, simd))
+        if (!d->solver.gas &&
+            !gas_solver_init(&d->solver, &pool->gas[i], stage->threads, simd, stage->kernels))
             return kiln_error_no_memory(error, "gas.%s", d->settings->name);
         struct run run = {
             .stage = stage,

@@ -1,14 +1,21 @@
 /* Declares the stage that steps the domains of gas of a scene. Gas reads the particles as they were
- * before a step; particles then read the gas (Heinz 2019, 2.3.2). It runs on the host with every
- * technique, in vectors. */
+ * before a step; particles then read the gas (Heinz 2019, 2.3.2). Both techniques give the same
+ * bits. */
 #ifndef KILN_SIM_GAS_GAS_H
 #define KILN_SIM_GAS_GAS_H
 
+#include "gpu/device.h"
 #include "particles/pool.h"
 #include "scene/scene.h"
 #include "sim/world/params.h"
 
+enum kiln_gas_technique {
+    KILN_GAS_CPU, /* host threads, in vectors */
+    KILN_GAS_GL,  /* compute; the gas stays in GL until it is read (kiln_gas_fetch) */
+};
+
 struct gas_domain;
+struct gas_kernels;
 
 /* Fills the sums of a domain's forces in, at the points of a grid over its window. around: has the
  * grids that forces look up. */
@@ -22,14 +29,18 @@ struct kiln_gas_stage {
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct gas_domain *domains;
-    uint32_t count;     /* of domains, in the order of the scene; 0: all else is unused */
-    uint32_t last_step; /* that was run; 0: none */
+    struct gas_kernels *kernels; /* NULL: technique `cpu` */
+    uint32_t count;              /* of domains, in the order of the scene; 0: all else is unused */
+    uint32_t last_step;          /* that was run; 0: none */
     char warning[200];
     bool warned[KILN_MAX_GAS], told;
 };
 
-/* Prepares for a scene's gas. kiln_gas_stage_finish frees everything, also after a failure. */
-bool kiln_gas_stage_init(struct kiln_gas_stage *stage, const struct kiln_scene *scene,
+/* Prepares for a scene's gas. device: may be NULL for `cpu`. kiln_gas_stage_finish frees
+ * everything, also after a failure. KILN_USAGE or KILN_NO_DEVICE when the device cannot run the
+ * technique. */
+bool kiln_gas_stage_init(struct kiln_gas_stage *stage, struct kiln_device *device,
+                         const struct kiln_scene *scene, enum kiln_gas_technique technique,
                          struct kiln_threads *threads, struct kiln_error *error);
 void kiln_gas_stage_finish(struct kiln_gas_stage *stage);
 

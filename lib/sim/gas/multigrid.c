@@ -49,13 +49,12 @@ static bool is_last(struct kiln_gas_place n, uint32_t number)
     return odd || n.x <= 4 || n.y <= 4 || n.z <= 4 || number + 1 == GAS_LEVELS;
 }
 
-static size_t floats_of(const struct gas_level *level)
+size_t gas_level_floats(const struct gas_level *level)
 {
     return (size_t)level->plane * (size_t)(level->cells.z + 2) + 2 * (size_t)KILN_GAS_PAD;
 }
 
-/* Returns the place of the first cell in an array of a level. */
-static size_t first_of(const struct gas_level *level)
+size_t gas_level_first(const struct gas_level *level)
 {
     return (size_t)(level->plane + level->row) + KILN_GAS_PAD;
 }
@@ -84,7 +83,7 @@ static void measure(struct gas_levels *levels, struct kiln_gas_place cells)
 static size_t level_floats(const struct gas_levels *levels, uint32_t i)
 {
     const struct gas_level *level = &levels->level[i];
-    return (i > 0 ? 2 : 1) * floats_of(level) + 18 * (size_t)level->row;
+    return (i > 0 ? 2 : 1) * gas_level_floats(level) + 18 * (size_t)level->row;
 }
 
 uint64_t gas_levels_bytes(struct kiln_gas_place cells, bool walls)
@@ -95,7 +94,8 @@ uint64_t gas_levels_bytes(struct kiln_gas_place cells, bool walls)
     for (uint32_t i = 0; i < levels.count; i++) {
         bytes += level_floats(&levels, i) * sizeof(float);
         if (walls)
-            bytes += 3 * floats_of(&levels.level[i]) * sizeof(float) + rows_of(&levels.level[i]);
+            bytes +=
+                3 * gas_level_floats(&levels.level[i]) * sizeof(float) + rows_of(&levels.level[i]);
     }
     return bytes;
 }
@@ -113,7 +113,7 @@ bool gas_levels_init(struct gas_levels *levels, const struct kiln_gas *gas)
     levels->memory = memory;
     for (uint32_t i = 0; i < levels->count; i++) {
         struct gas_level *level = &levels->level[i];
-        const size_t size = floats_of(level), first = first_of(level);
+        const size_t size = gas_level_floats(level), first = gas_level_first(level);
         level->f = memory + first;
         level->p = i > 0 ? level->f + size : gas->pressure;
         level->diagonal = memory + (i > 0 ? 2 : 1) * size;
@@ -162,7 +162,7 @@ bool gas_levels_add_walls(struct gas_levels *levels)
 {
     size_t floats = 0, rows = 0;
     for (uint32_t i = 0; i < levels->count; i++) {
-        floats += 3 * floats_of(&levels->level[i]);
+        floats += 3 * gas_level_floats(&levels->level[i]);
         rows += rows_of(&levels->level[i]);
     }
     levels->wall_memory = kiln_alloc_pages(floats * sizeof(float));
@@ -173,8 +173,8 @@ bool gas_levels_add_walls(struct gas_levels *levels)
     floats = rows = 0;
     for (uint32_t i = 0; i < levels->count; i++) {
         struct gas_level *level = &levels->level[i];
-        for (int axis = 0; axis < 3; axis++, floats += floats_of(level))
-            level->open[axis] = levels->wall_memory + floats + first_of(level);
+        for (int axis = 0; axis < 3; axis++, floats += gas_level_floats(level))
+            level->open[axis] = levels->wall_memory + floats + gas_level_first(level);
         level->walled = levels->wall_rows + rows;
         rows += rows_of(level);
         gas_level_open_all(level);
@@ -246,89 +246,126 @@ void gas_levels_coarsen(const struct gas_levels *levels, int32_t begin, int32_t 
 
 /* ---- cycles ---------------------------------------------------------------------------------- */
 
-struct work {
-    const struct gas_multigrid *rows;
-    const struct gas_level *level, *other;
-    int color;
-    enum { RELAX, BEGIN, RESTRICT, PROLONG } kind;
-};
-
-static void work_on(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct work *work = context;
-    const int32_t a = (int32_t)begin, b = (int32_t)end;
-    switch (work->kind) {
-    case RELAX:
-        work->rows->relax(work->level, work->color, a, b);
-        break;
-    case BEGIN:
-        work->rows->begin(work->level, a, b);
-        break;
-    case RESTRICT:
-        work->rows->restrict_to(work->level, work->other, a, b);
-        break;
-    case PROLONG:
-        work->rows->prolong(work->other, work->level, work->color, a, b);
-        break;
-    }
-}
-
-static void over_planes(struct kiln_threads *threads, const struct gas_level *planes,
-                        struct work work)
-{
-    const struct kiln_gas_place n = planes->cells;
-    const int32_t grain = CELLS_A_PIECE / (n.x * n.y) + 1;
-    kiln_threads_for(threads, (size_t)n.z, (size_t)grain, work_on, &work);
-}
-
 static int32_t sweeps_of(struct kiln_gas_place n)
 {
     const int32_t flat = n.x > n.y ? n.x : n.y;
     return LEAST_SWEEPS + (flat > n.z ? flat : n.z);
 }
 
-static void relax(const struct gas_multigrid *rows, struct kiln_threads *threads,
-                  const struct gas_level *level, int color)
+/* Relaxes a colour of a level. */
+static void relax(const struct gas_relaxer *relaxer, const struct gas_level *level, int color)
 {
-    over_planes(threads, level, (struct work){rows, level, NULL, color, RELAX});
+    relaxer->run(relaxer->context,
+                 &(struct gas_relaxation){.kind = GAS_RELAX, .level = level, .color = color});
+}
+
+static void between(const struct gas_relaxer *relaxer, enum gas_relaxation_kind kind,
+                    const struct gas_level *level)
+{
+    relaxer->run(relaxer->context,
+                 &(struct gas_relaxation){.kind = kind, .level = level, .coarse = level + 1});
+}
+
+void gas_levels_cycle(const struct gas_levels *levels, const struct gas_relaxer *relaxer,
+                      uint32_t cycles)
+{
+    const uint32_t last = levels->count - 1;
+    for (uint32_t cycle = 0; cycle < cycles; cycle++) {
+        for (uint32_t i = 0; i < last; i++) {
+            const struct gas_level *level = &levels->level[i];
+            if (i > 0)
+                relaxer->run(relaxer->context,
+                             &(struct gas_relaxation){.kind = GAS_BEGIN, .level = level});
+            else if (cycle == 0) /* a cycle ends with colour 0 */
+                relax(relaxer, level, 0);
+            relax(relaxer, level, 1);
+            between(relaxer, GAS_RESTRICT, level);
+        }
+        const struct gas_level *level = &levels->level[last];
+        relaxer->run(relaxer->context, &(struct gas_relaxation){.kind = GAS_COARSEST,
+                                                                .level = level,
+                                                                .sweeps = sweeps_of(level->cells)});
+        for (uint32_t i = last; i-- > 0;) {
+            level = &levels->level[i];
+            between(relaxer, GAS_PROLONG, level);
+            relax(relaxer, level, 1);
+            relax(relaxer, level, 0);
+        }
+    }
+}
+
+/* Relaxes levels on the host. */
+struct host {
+    const struct gas_multigrid *rows;
+    struct kiln_threads *threads;
+};
+
+struct work {
+    const struct gas_multigrid *rows;
+    const struct gas_relaxation *what;
+};
+
+static void work_on(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct work *work = context;
+    const struct gas_relaxation *r = work->what;
+    const int32_t a = (int32_t)begin, b = (int32_t)end;
+    switch (r->kind) {
+    case GAS_RELAX:
+        work->rows->relax(r->level, r->color, a, b);
+        break;
+    case GAS_BEGIN:
+        work->rows->begin(r->level, a, b);
+        break;
+    case GAS_RESTRICT:
+        work->rows->restrict_to(r->level, r->coarse, a, b);
+        break;
+    case GAS_PROLONG:
+        work->rows->prolong(r->coarse, r->level, r->color, a, b);
+        break;
+    case GAS_COARSEST:
+        break;
+    }
+}
+
+static void over_planes(const struct host *host, const struct gas_relaxation *what)
+{
+    struct work work = {host->rows, what};
+    const struct gas_level *planes = what->kind == GAS_RESTRICT ? what->coarse : what->level;
+    const struct kiln_gas_place n = planes->cells;
+    const int32_t grain = CELLS_A_PIECE / (n.x * n.y) + 1;
+    kiln_threads_for(host->threads, (size_t)n.z, (size_t)grain, work_on, &work);
+}
+
+static void run_on_host(void *context, const struct gas_relaxation *what)
+{
+    const struct host *host = context;
+    const struct gas_level *level = what->level;
+    if (what->kind != GAS_COARSEST) {
+        over_planes(host, what);
+        return;
+    }
+    over_planes(host, &(struct gas_relaxation){.kind = GAS_BEGIN, .level = level});
+    for (int32_t i = 0; i < what->sweeps; i++)
+        for (int color = 1; color >= 0; color--)
+            over_planes(
+                host, &(struct gas_relaxation){.kind = GAS_RELAX, .level = level, .color = color});
 }
 
 void gas_levels_solve(const struct gas_levels *levels, const struct gas_multigrid *rows,
                       struct kiln_threads *threads, uint32_t cycles)
 {
-    const uint32_t last = levels->count - 1;
-    for (uint32_t cycle = 0; cycle < cycles; cycle++) {
-        for (uint32_t i = 0; i < last; i++) {
-            const struct gas_level *level = &levels->level[i], *coarse = level + 1;
-            if (i > 0)
-                over_planes(threads, level, (struct work){rows, level, NULL, 0, BEGIN});
-            else if (cycle == 0) /* a cycle ends with colour 0 */
-                relax(rows, threads, level, 0);
-            relax(rows, threads, level, 1);
-            over_planes(threads, coarse, (struct work){rows, level, coarse, 0, RESTRICT});
-        }
-        const struct gas_level *level = &levels->level[last];
-        over_planes(threads, level, (struct work){rows, level, NULL, 0, BEGIN});
-        for (int32_t i = 0; i < sweeps_of(level->cells); i++) {
-            relax(rows, threads, level, 1);
-            relax(rows, threads, level, 0);
-        }
-        for (uint32_t i = last; i-- > 0;) {
-            level = &levels->level[i];
-            over_planes(threads, level, (struct work){rows, level, level + 1, 0, PROLONG});
-            relax(rows, threads, level, 1);
-            relax(rows, threads, level, 0);
-        }
-    }
+    struct host host = {rows, threads};
+    gas_levels_cycle(levels, &(struct gas_relaxer){&host, run_on_host}, cycles);
 }
 
-double gas_levels_length(const struct gas_levels *levels, const struct gas_multigrid *rows,
-                         bool residual)
+double gas_level_length(const struct gas_level *level, const struct gas_multigrid *rows,
+                        bool residual)
 {
     double sum = 0.0;
-    for (int32_t z = 0; z < levels->level[0].cells.z; z++)
-        sum += rows->square(&levels->level[0], residual, z);
+    for (int32_t z = 0; z < level->cells.z; z++)
+        sum += rows->square(level, residual, z);
     return sqrt(sum);
 }
 
@@ -355,8 +392,8 @@ static void center(const struct gas_level *level, float *numbers)
     }
 }
 
-void gas_levels_center(const struct gas_levels *levels)
+void gas_level_center(const struct gas_level *level)
 {
-    center(&levels->level[0], levels->level[0].f);
-    center(&levels->level[0], levels->level[0].p);
+    center(level, level->f);
+    center(level, level->p);
 }

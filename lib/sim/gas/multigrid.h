@@ -84,16 +84,46 @@ void gas_level_open_all(const struct gas_level *level);
  * end) of the finest level's `open`. */
 void gas_levels_coarsen(const struct gas_levels *levels, int32_t begin, int32_t end);
 
+/* Return the floats of an array of a level, such as p, and the place of the first cell in it. */
+size_t gas_level_floats(const struct gas_level *level);
+size_t gas_level_first(const struct gas_level *level);
+
+/* What a V-cycle does, one after another. */
+enum gas_relaxation_kind {
+    GAS_RELAX,    /* the cells of a colour of a level */
+    GAS_BEGIN,    /* those of colour 0, where p is zero everywhere, whatever p holds */
+    GAS_RESTRICT, /* fills f of the coarser level with residuals */
+    GAS_PROLONG,  /* adds the coarser level's p to the cells of a colour */
+    GAS_COARSEST, /* GAS_BEGIN, and then `sweeps` over colour 1 and colour 0 */
+};
+
+struct gas_relaxation {
+    enum gas_relaxation_kind kind;
+    const struct gas_level *level, *coarse;
+    int color;
+    int32_t sweeps;
+};
+
+/* Runs the parts of V-cycles, on the host or in GL. */
+struct gas_relaxer {
+    void *context;
+    void (*run)(void *context, const struct gas_relaxation *what);
+};
+
 /* Improves p of the finest level by `cycles` V-cycles. */
+void gas_levels_cycle(const struct gas_levels *levels, const struct gas_relaxer *relaxer,
+                      uint32_t cycles);
+
+/* Does so on the host. */
 void gas_levels_solve(const struct gas_levels *levels, const struct gas_multigrid *rows,
                       struct kiln_threads *threads, uint32_t cycles);
 
-/* Returns the length of f of the finest level, or of its residual. Sums are in a fixed order. */
-double gas_levels_length(const struct gas_levels *levels, const struct gas_multigrid *rows,
-                         bool residual);
+/* Returns the length of f of a level, or of its residual. Sums are in a fixed order. */
+double gas_level_length(const struct gas_level *level, const struct gas_multigrid *rows,
+                        bool residual);
 
 /* Where nothing can flow out of the window, the equation has no solution unless f sums up to 0, and
  * then any pressure may be added: takes the means off f and p of the finest level. */
-void gas_levels_center(const struct gas_levels *levels);
+void gas_level_center(const struct gas_level *level);
 
 #endif

@@ -23,9 +23,8 @@ SIMD vf around(const struct gas_level *level, const float *p, int odd, ptrdiff_t
 {
     const float *own = p + odd * level->odd + i, *other = p + (1 - odd) * level->odd + i;
     const ptrdiff_t row = level->row, plane = level->plane;
-    return ((vf_load(other + odd - 1) + vf_load(other + odd)) +
-            (vf_load(own - row) + vf_load(own + row))) +
-           (vf_load(own - plane) + vf_load(own + plane));
+    return gas_around(vf_load(other + odd - 1), vf_load(other + odd), vf_load(own - row),
+                      vf_load(own + row), vf_load(own - plane), vf_load(own + plane));
 }
 
 static bool is_walled(const struct gas_level *level, int32_t y, int32_t z)
@@ -53,10 +52,10 @@ SIMD struct weighed weigh(const struct gas_level *level, ptrdiff_t at, int odd, 
     for (int k = 0; k < 6; k++)
         open[k] = vf_where((vi)within, open[k]);
     return (struct weighed){
-        ((open[0] * vf_load(p + other + odd - 1) + open[1] * vf_load(p + other + odd)) +
-         (open[2] * vf_load(p + own - row) + open[3] * vf_load(p + own + row))) +
-            (open[4] * vf_load(p + own - plane) + open[5] * vf_load(p + own + plane)),
-        ((open[0] + open[1]) + (open[2] + open[3])) + (open[4] + open[5])};
+        gas_around(open[0] * vf_load(p + other + odd - 1), open[1] * vf_load(p + other + odd),
+                   open[2] * vf_load(p + own - row), open[3] * vf_load(p + own + row),
+                   open[4] * vf_load(p + own - plane), open[5] * vf_load(p + own + plane)),
+        gas_around(open[0], open[1], open[2], open[3], open[4], open[5])};
 }
 
 /* Relaxes a row beside solids. fresh: p is zero everywhere, whatever it holds. */

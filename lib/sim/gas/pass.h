@@ -35,6 +35,12 @@ struct gas_stir {
     uint32_t octaves, seed;
 };
 
+/* Names cells of an active brick that solids take. */
+struct gas_emptied {
+    size_t brick;                         /* of the window */
+    uint32_t cells[GAS_BRICK_CELLS / 32]; /* a bit for each */
+};
+
 struct gas_pass {
     struct kiln_gas *gas;
     const struct kiln_gas_step *step;
@@ -42,6 +48,9 @@ struct gas_pass {
     float *expansion; /* of each cell of active bricks, 1/s, in the order of the faces */
     struct gas_wall *const *walls; /* of each brick of the window, or NULL where it has none; NULL:
                                       there are no solids */
+    uint32_t walls_made;           /* grows whenever walls change */
+    const struct gas_emptied *emptied; /* after walls have moved */
+    size_t emptied_count;
     struct gas_lattice forces;
     struct gas_stir stir;
 };

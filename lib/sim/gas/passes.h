@@ -12,7 +12,7 @@ struct gas_hooks;
 enum gas_timer {
     GAS_TIMER_TRACE,   /* moves what cells have along the velocity */
     GAS_TIMER_REACT,   /* corrects it, lets it burn and pushes it: fills `found` of the solver */
-    GAS_TIMER_SOURCES, /* adds sources: fills `added`, and `has_gas` of what was found */
+    GAS_TIMER_SOURCES, /* adds sources: fills `sourced`, and `left` of what was found */
     GAS_TIMER_WALLS,   /* moves solids to the end of the substep */
     GAS_TIMER_PUSH,    /* gives the changes of velocities to faces */
     GAS_TIMER_DIVERGE,
@@ -41,14 +41,27 @@ struct gas_job {
 
 struct gas_passes {
     /* Prepares for the solver's gas. False: memory is short. */
-    bool (*init)(struct gas_solver *solver, struct kiln_error *error);
+    bool (*init)(struct gas_solver *solver);
     void (*finish)(struct gas_solver *solver);
     /* Makes what is for a window, and frees it. False: memory is short. */
     bool (*init_window)(struct gas_solver *solver);
     void (*free_window)(struct gas_solver *solver);
+    /* Sets a group of what cells carry beside to 0, where it is not on the host. NULL: it is. */
+    void (*clear_group)(struct gas_solver *solver, uint32_t group);
     enum gas_failure (*pass[GAS_TIMERS])(struct gas_job *job);
 };
 
-extern const struct gas_passes gas_passes_cpu;
+/* Finds the pressure. All of them return false with an error. */
+struct gas_pressure {
+    bool (*center)(struct gas_job *job); /* gas_level_center */
+    bool (*cycle)(struct gas_job *job);  /* job->cycles */
+    /* Fills in the length of the right side, or of the residual. */
+    bool (*length)(struct gas_job *job, bool residual, double *length);
+};
+
+/* Runs V-cycles until the residual is as small as it should be. */
+bool gas_solver_find_pressure(struct gas_job *job, const struct gas_pressure *pressure);
+
+extern const struct gas_passes gas_passes_cpu, gas_passes_gl;
 
 #endif

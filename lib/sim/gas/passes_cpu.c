@@ -11,9 +11,8 @@ enum { BRICKS_A_PIECE = 4, PLANES_A_PIECE = 2 };
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
-static bool init(struct gas_solver *solver, struct kiln_error *error)
+static bool init(struct gas_solver *solver)
 {
-    (void)error;
     const size_t size = kiln_threads_count(solver->threads) * sizeof *solver->spaces;
     solver->spaces = kiln_alloc_pages(size);
     if (!solver->spaces)
@@ -83,14 +82,31 @@ static void blow(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
+/* Returns the smoke of a brick, summed up in the order in which gas_advect.react does. */
+static double smoke_of(const struct kiln_gas_brick *brick)
+{
+    float column[GAS_BRICK] = {0};
+    double sum = 0.0;
+    for (int i = 0; i < GAS_BRICK_CELLS; i++)
+        column[i % GAS_BRICK] =
+            column[i % GAS_BRICK] + brick->now[(size_t)i * GAS_CARRIED + GAS_SMOKE];
+    for (int x = 0; x < GAS_BRICK; x++)
+        sum += (double)column[x];
+    return sum;
+}
+
 static void add(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct gas_job *job = context;
     struct gas_solver *s = job->solver;
-    for (size_t i = begin; i < end; i++)
-        s->added[i] = job->hooks->add(job->hooks->context, job->pass, s->active.brick[i],
-                                      &s->found[i].has_gas);
+    for (size_t i = begin; i < end; i++) {
+        const gas_brick_place at = s->active.brick[i];
+        s->sourced[i] = job->hooks->add(job->hooks->context, job->pass, at);
+        if (s->sourced[i])
+            s->found[i].left =
+                smoke_of(&s->gas->brick[kiln_gas_brick_index(s->gas, at.x, at.y, at.z)]);
+    }
 }
 
 static void push(void *context, size_t begin, size_t end, uint32_t worker)
@@ -155,12 +171,27 @@ static enum gas_failure add_all(struct gas_job *job)
     return job->hooks->add ? over_bricks(job, add) : GAS_STEPPED;
 }
 
+/* Takes the gas away from the cells that solids take at the end of a substep. */
+static void empty_cells(const struct gas_pass *pass)
+{
+    for (size_t i = 0; i < pass->emptied_count; i++) {
+        const struct gas_emptied *emptied = &pass->emptied[i];
+        float *now = pass->gas->brick[emptied->brick].now;
+        for (int32_t k = 0; k < GAS_BRICK_CELLS; k++)
+            if (emptied->cells[k / 32] >> (k % 32) & 1)
+                memset(now + (ptrdiff_t)k * GAS_CARRIED, 0, GAS_CARRIED * sizeof *now);
+    }
+}
+
 static enum gas_failure move_walls(struct gas_job *job)
 {
     const struct gas_hooks *hooks = job->hooks;
-    return !hooks->move_walls || hooks->move_walls(hooks->context, job->pass, &job->solver->levels)
-               ? GAS_STEPPED
-               : GAS_NO_MEMORY;
+    if (!hooks->move_walls)
+        return GAS_STEPPED;
+    if (!hooks->move_walls(hooks->context, job->pass, &job->solver->levels))
+        return GAS_NO_MEMORY;
+    empty_cells(job->pass);
+    return GAS_STEPPED;
 }
 
 /* Takes over what bricks carry beside, which sources were added to. */
@@ -187,36 +218,29 @@ static enum gas_failure diverge_all(struct gas_job *job)
     return loop(job, (size_t)job->solver->gas->cells.z, PLANES_A_PIECE, diverge);
 }
 
-/* Solves for the pressure until the residual is as small as it should be. */
-static void solve(struct gas_solver *solver, uint32_t cycles, double residual)
+static bool center(struct gas_job *job)
 {
-    const struct gas_levels *levels = &solver->levels;
-    gas_levels_solve(levels, solver->multigrid, solver->threads, cycles);
-    if (residual <= 0.0)
-        return;
-    const double all = gas_levels_length(levels, solver->multigrid, false);
-    for (uint32_t i = 0; all > 0.0; i++) {
-        solver->left_over = gas_levels_length(levels, solver->multigrid, true) / all;
-        if (solver->left_over <= residual || i + 1 >= GAS_MOST_CYCLES)
-            break;
-        gas_levels_solve(levels, solver->multigrid, solver->threads, cycles);
-    }
+    gas_level_center(&job->solver->levels.level[0]);
+    return true;
 }
 
-static bool is_shut(const struct gas_level *level)
+static bool cycle(struct gas_job *job)
 {
-    bool shut = true;
-    for (int i = 0; i < 6; i++)
-        shut = shut && level->closed[i];
-    return shut;
+    const struct gas_solver *s = job->solver;
+    gas_levels_solve(&s->levels, s->multigrid, s->threads, job->cycles);
+    return true;
+}
+
+static bool length(struct gas_job *job, bool residual, double *sum)
+{
+    *sum = gas_level_length(&job->solver->levels.level[0], job->solver->multigrid, residual);
+    return true;
 }
 
 static enum gas_failure solve_all(struct gas_job *job)
 {
-    if (is_shut(&job->solver->levels.level[0]))
-        gas_levels_center(&job->solver->levels);
-    solve(job->solver, job->cycles, job->residual);
-    return GAS_STEPPED;
+    static const struct gas_pressure on_host = {.center = center, .cycle = cycle, .length = length};
+    return gas_solver_find_pressure(job, &on_host) ? GAS_STEPPED : GAS_STOPPED;
 }
 
 static enum gas_failure project_all(struct gas_job *job)

@@ -16,9 +16,9 @@ SIMD struct eight mixed(const float *const *row, int32_t x, const float *part_x,
     EIGHT_EACH(k)
     {
         const int o = k * LANES;
-#define MIX(a, b, part) ((a) + ((b) - (a)) * (part))
-#define PAIR(q)         MIX(vf_load((q) + o), vf_load((q) + o + GAS_TRACED), across)
-        result.part[k] = MIX(MIX(PAIR(a), PAIR(b), up), MIX(PAIR(c), PAIR(d), up), along);
+#define PAIR(q) gas_mix(vf_load((q) + o), vf_load((q) + o + GAS_TRACED), across)
+        result.part[k] =
+            gas_mix(gas_mix(PAIR(a), PAIR(b), up), gas_mix(PAIR(c), PAIR(d), up), along);
     }
     return result;
 }
@@ -56,14 +56,6 @@ SIMD void places_from(struct places *places, const struct gas_workspace *space, 
                   (float)z - vf_load(&space->way[2][z][y][lane]));
 }
 
-/* Returns the way of cells in the step to come from that in the last one, back: its bend has the
- * opposite sign. scaled: velocity in cells a step. */
-SIMD vf way_forth(vf scaled, vf back)
-{
-    const float most = GAS_MOST_CELLS;
-    return vf_clamp((scaled + scaled) - back, -most, most);
-}
-
 /* Finds those that it goes to. scale: of velocities to cells a step. */
 SIMD void places_to(struct places *places, const struct gas_workspace *space, float scale,
                     int32_t y, int32_t z)
@@ -71,9 +63,9 @@ SIMD void places_to(struct places *places, const struct gas_workspace *space, fl
     for (int lane = 0; lane < GAS_BRICK; lane += LANES) {
         vf way[3];
         for (int c = 0; c < 3; c++)
-            way[c] =
-                way_forth(vf_load(&space->velocity[c][z + BELOW][y + BELOW][lane + BELOW]) * scale,
-                          vf_load(&space->way[c][z][y][lane]));
+            way[c] = gas_way_forth(
+                vf_load(&space->velocity[c][z + BELOW][y + BELOW][lane + BELOW]) * scale,
+                vf_load(&space->way[c][z][y][lane]));
         places_of(places, lane, vf_count() + (float)lane + way[0], (float)y + way[1],
                   (float)z + way[2]);
     }

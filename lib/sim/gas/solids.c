@@ -35,7 +35,10 @@ void gas_solids_finish(struct gas_solids *solids)
     for (size_t i = 0; solids->walls && i < brick_count(solids); i++)
         free(solids->walls[i]);
     free(solids->walls);
+    free(solids->emptied);
     solids->walls = NULL;
+    solids->emptied = NULL;
+    solids->emptied_count = 0;
     solids->bricks = (struct kiln_gas_place){0, 0, 0};
 }
 
@@ -167,18 +170,18 @@ static bool is_swept(const struct work *work, const struct near *near, float3 p)
     return false;
 }
 
-/* Takes the gas away from cells that solids take at the end of a substep. Else it would be behind
- * those that are thin. */
-static void empty_cells(const struct work *work, size_t number, const struct near *near,
-                        const uint16_t in[CENTRES], const float3 at[CENTRES])
+/* Names the cells that solids take at the end of a substep: their gas would else be behind those
+ * that are thin. */
+static void find_emptied(const struct work *work, const struct near *near,
+                         const uint16_t in[CENTRES], const float3 at[CENTRES],
+                         struct gas_emptied *emptied)
 {
-    const struct kiln_gas_brick *brick = &work->gas->brick[number];
-    for (int32_t cell = 0; cell < GAS_BRICK_CELLS && brick->chunk; cell++) {
+    for (int32_t cell = 0; cell < GAS_BRICK_CELLS; cell++) {
         const int32_t x = cell % GAS_BRICK, y = cell / GAS_BRICK % GAS_BRICK;
         const int32_t z = cell / (GAS_BRICK * GAS_BRICK);
         const int32_t k = ((z + 1) * SIDE + y + 1) * SIDE + x + 1;
         if (in[k] != NOT_SOLID || is_swept(work, near, at[k]))
-            memset(brick->now + (ptrdiff_t)cell * GAS_CARRIED, 0, GAS_CARRIED * sizeof(float));
+            emptied->cells[cell / 32] |= 1u << (cell % 32);
     }
 }
 
@@ -214,10 +217,12 @@ static void make_bricks(void *context, size_t begin, size_t end, uint32_t worker
                                          (int32_t)(number / (size_t)n.x % (size_t)n.y),
                                          (int32_t)(number / ((size_t)n.x * (size_t)n.y))};
         struct gas_wall **wall = &solids->walls[number];
+        struct gas_emptied *emptied = &solids->emptied[i];
         struct near near = {.count = 0};
         uint16_t in[CENTRES];
         float3 at[CENTRES];
         bool any = false;
+        *emptied = (struct gas_emptied){.brick = number};
         for (uint32_t k = 0; k < work->sim->surroundings->collider_count; k++)
             if (reaches(&solids->places[k].region, b))
                 near.number[near.count++] = (uint16_t)k;
@@ -230,8 +235,8 @@ static void make_bricks(void *context, size_t begin, size_t end, uint32_t worker
                 return;
             }
             any = shut_faces(work, &near, in, at, *wall);
-            if (work->since > work->before)
-                empty_cells(work, number, &near, in, at);
+            if (work->since > work->before && work->gas->brick[number].chunk)
+                find_emptied(work, &near, in, at, emptied);
         }
         if (!any) {
             free(*wall);
@@ -326,6 +331,7 @@ static bool new_window(struct gas_solids *solids, const struct kiln_gas *gas)
     gas_solids_finish(solids);
     solids->window = gas->window;
     solids->bricks = gas->bricks;
+    solids->made++;
     solids->walls = calloc(brick_count(solids), sizeof *solids->walls);
     return solids->walls != NULL;
 }
@@ -342,7 +348,13 @@ static bool make_walls(struct work *work, const uint8_t *marks, size_t *list)
             list[listed++] = i;
     if (listed == 0)
         return true;
+    free(solids->emptied);
+    solids->emptied = malloc(listed * sizeof *solids->emptied);
+    if (!solids->emptied)
+        return false;
     work->bricks = list;
+    solids->emptied_count = listed;
+    solids->made++;
     kiln_threads_for(solids->threads, listed, 1, make_bricks, work);
     if (atomic_load(&work->short_of_memory))
         return false;
@@ -371,6 +383,7 @@ bool gas_solids_move(struct gas_solids *solids, const struct kiln_gas *gas,
     };
     if (fresh && !new_window(solids, gas))
         return false;
+    solids->emptied_count = 0;
     solids->since = since;
     const size_t count = brick_count(solids);
     uint8_t *marks = calloc(count, 1);

@@ -22,8 +22,12 @@ struct gas_solids {
     uint32_t window;              /* of the gas, that `walls` are of */
     struct kiln_gas_place bricks; /* of that window */
     struct gas_collider_place places[KILN_MAX_COLLIDERS];
-    bool any;    /* a brick has a wall */
-    float since; /* part of the step after which walls were made last */
+    bool any;      /* a brick has a wall */
+    float since;   /* part of the step after which walls were made last */
+    uint32_t made; /* grows whenever walls are made */
+    /* Cells that solids took when walls were made last, of bricks that they reach. */
+    struct gas_emptied *emptied;
+    size_t emptied_count;
 };
 
 void gas_solids_init(struct gas_solids *solids, const struct kiln_scene *scene,

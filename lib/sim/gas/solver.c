@@ -8,15 +8,16 @@
 #include <time.h>
 
 bool gas_solver_init(struct gas_solver *solver, struct kiln_gas *gas, struct kiln_threads *threads,
-                     enum kiln_simd simd)
+                     enum kiln_simd simd, struct gas_kernels *kernels)
 {
     *solver = (struct gas_solver){.gas = gas,
                                   .threads = threads,
-                                  .passes = &gas_passes_cpu,
+                                  .passes = kernels ? &gas_passes_gl : &gas_passes_cpu,
+                                  .kernels = kernels,
                                   .advect = KILN_SIMD_PICK(kiln_gas_advect, simd),
                                   .faces = KILN_SIMD_PICK(kiln_gas_faces, simd),
                                   .multigrid = KILN_SIMD_PICK(kiln_gas_multigrid, simd)};
-    return solver->passes->init(solver, NULL);
+    return solver->passes->init(solver);
 }
 
 void gas_solver_finish(struct gas_solver *solver)
@@ -32,8 +33,29 @@ uint64_t gas_solver_bytes(struct kiln_gas_place cells, bool has_walls, bool blow
         (uint64_t)cells.x * (uint64_t)cells.y * (uint64_t)cells.z / GAS_BRICK_CELLS;
     const uint64_t change = sizeof(float) * GAS_IDLE_PLANES * GAS_BRICK_CELLS;
     return gas_levels_bytes(cells, has_walls) +
-           bricks * (2 * sizeof(gas_brick_place) + sizeof(struct gas_found) + sizeof(double) +
+           bricks * (2 * sizeof(gas_brick_place) + sizeof(struct gas_found) + sizeof(bool) +
                      (blows ? change : 0));
+}
+
+/* Sets a group of what cells carry beside to 0. */
+static void clear_group(struct gas_solver *solver, uint32_t group)
+{
+    const struct kiln_gas *gas = solver->gas;
+    const size_t words = (size_t)GAS_BRICK_CELLS * GAS_CARRIED;
+    for (size_t i = 0; i < (size_t)gas->bricks.x * (size_t)gas->bricks.y * (size_t)gas->bricks.z;
+         i++)
+        if (gas->brick[i].extras)
+            memset(gas->brick[i].extras + group * words, 0, words * sizeof(float));
+    if (solver->passes->clear_group)
+        solver->passes->clear_group(solver, group);
+}
+
+void gas_solver_begin_ways(struct gas_solver *solver, float start_s, float end_s)
+{
+    const struct kiln_gas_shape *shape = &solver->gas->shape;
+    for (uint32_t group = 0; shape->detailed && group < 2; group++)
+        if (kiln_gas_way_phase(group, end_s) < kiln_gas_way_phase(group, start_s))
+            clear_group(solver, kiln_gas_group(shape, GAS_CAME_FROM) + group);
 }
 
 /* ---- a step ---------------------------------------------------------------------------------- */
@@ -66,15 +88,45 @@ static bool take_over(struct gas_solver *solver, float dt)
         const gas_brick_place at = solver->active.brick[i];
         const size_t index = kiln_gas_brick_index(gas, at.x, at.y, at.z);
         const struct gas_found *found = &solver->found[i];
-        gas->has_gas[index] = found->has_gas;
+        gas->has_gas[index] = found->has_gas || solver->sourced[i];
         moved += found->moved;
-        left += found->left + solver->added[i];
+        left += found->left;
         growth += found->growth;
         fine = fine && !found->is_wrong;
         leaves = leaves || (gas->has_gas[index] && kiln_gas_is_at_opening(gas, at));
     }
     kiln_gas_keep_smoke(gas, moved, left, growth, dt, leaves);
     return fine;
+}
+
+static bool is_shut(const struct gas_level *level)
+{
+    bool shut = true;
+    for (int i = 0; i < 6; i++)
+        shut = shut && level->closed[i];
+    return shut;
+}
+
+bool gas_solver_find_pressure(struct gas_job *job, const struct gas_pressure *pressure)
+{
+    struct gas_solver *s = job->solver;
+    double all = 0.0, left = 0.0;
+    if ((is_shut(&s->levels.level[0]) && !pressure->center(job)) || !pressure->cycle(job))
+        return false;
+    if (job->residual <= 0.0)
+        return true;
+    if (!pressure->length(job, false, &all))
+        return false;
+    for (uint32_t i = 0; all > 0.0; i++) {
+        if (!pressure->length(job, true, &left))
+            return false;
+        s->left_over = left / all;
+        if (s->left_over <= job->residual || i + 1 >= GAS_MOST_CYCLES)
+            break;
+        if (!pressure->cycle(job))
+            return false;
+    }
+    return true;
 }
 
 enum gas_failure gas_solver_step(struct gas_solver *solver, struct gas_pass *pass,
@@ -85,7 +137,7 @@ enum gas_failure gas_solver_step(struct gas_solver *solver, struct gas_pass *pas
     const size_t active = solver->active.count;
     if (active == 0)
         return GAS_STEPPED;
-    memset(solver->added, 0, active * sizeof *solver->added);
+    memset(solver->sourced, 0, active * sizeof *solver->sourced);
     kiln_gas_closed(solver->gas, pass->closed);
     pass->expansion = solver->levels.level[0].f;
     for (int timer = 0; timer < GAS_TIMERS; timer++) {

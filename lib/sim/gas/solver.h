@@ -22,16 +22,34 @@ struct gas_region {
     struct kiln_gas_place low, high;
 };
 
+/* What a source brings to a cell that lies wholly in it. */
+struct gas_brought {
+    struct gas_region region; /* bricks of the domain that it reaches */
+    float fuel, temperature, smoke;
+    float taken; /* part of these that gas takes in a substep */
+    float color[3];
+    bool blows;
+};
+
 /* Works on active bricks between two passes of a step. */
 struct gas_hooks {
     void *context;
-    /* Adds sources to `now` and `change` of a brick, and returns how much smoke it added to its
-     * cells. Sets *any if a source reaches a cell. NULL: there are none. */
-    double (*add)(void *context, const struct gas_pass *pass, gas_brick_place at, bool *any);
+    /* Adds sources to `now` and `change` of a brick. Returns whether any reaches a cell. NULL:
+     * there are none. */
+    bool (*add)(void *context, const struct gas_pass *pass, gas_brick_place at);
+    /* Describes a source, for passes in GL. False: there are no more. NULL: there are none. */
+    bool (*brings)(void *context, uint32_t source, struct gas_brought *brought);
+    /* Fills in, for each cell of a brick, the velocity that a source blows with, m/s, and how far
+     * the cell lies in it, 0 to 1. Returns whether any does. */
+    bool (*reach)(void *context, const struct gas_pass *pass, uint32_t source, gas_brick_place at,
+                  float4 *cells);
     /* Moves the walls to the end of the substep, and fills `open` of the finest level. NULL: there
      * are none. False when memory is short. */
     bool (*move_walls)(void *context, struct gas_pass *pass, const struct gas_levels *levels);
 };
+
+struct gas_kernels;
+struct gas_fields;
 
 struct gas_solver {
     struct kiln_gas *gas;
@@ -41,7 +59,7 @@ struct gas_solver {
     struct gas_levels levels;
     struct gas_list active, pushed; /* bricks of the window; of the latter, also their neighbours */
     struct gas_found *found;        /* of each active brick */
-    double *added;                  /* smoke, of each active brick */
+    bool *sourced;                  /* of each active brick: whether a source reaches a cell */
     bool has_walls, blows;          /* as gas_solver_prepare was told */
     struct gas_rest rest;           /* of the air that a window did not have before */
     bool reached; /* gas_solver_prepare has moved the window: it was `old_cells` at `old_at` */
@@ -56,6 +74,9 @@ struct gas_solver {
     float *fastest;               /* of each plane */
     struct gas_workspace *spaces; /* of each thread */
     float *idle_changes;          /* memory of the changes of idle bricks; NULL: there are none */
+    /* The following are for passes in GL (fields.h). */
+    struct gas_kernels *kernels; /* borrowed; NULL: passes run on the host */
+    struct gas_fields *fields;
 };
 
 enum {
@@ -63,18 +84,24 @@ enum {
     GAS_MOST_CYCLES = 4, /* times those that were asked for */
 };
 
-/* Initialises a solver for a gas, which is borrowed, as the threads are. */
+/* Initialises a solver for a gas, which is borrowed, as the threads are, and the kernels. kernels:
+ * NULL: passes run on the host. False: memory is short. */
 bool gas_solver_init(struct gas_solver *solver, struct kiln_gas *gas, struct kiln_threads *threads,
-                     enum kiln_simd simd);
+                     enum kiln_simd simd, struct gas_kernels *kernels);
 void gas_solver_finish(struct gas_solver *solver);
 
 /* Returns the bytes that solving a window of cells takes, beside the gas itself. */
 uint64_t gas_solver_bytes(struct kiln_gas_place cells, bool has_walls, bool blows);
 
 /* Moves the window, and wakes the bricks that have gas, are beside such a brick, or lie in one of
- * the regions. blows: forces also act where there is no gas. False when memory is short. */
-bool gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regions,
-                        uint32_t region_count, bool has_walls, bool blows);
+ * the regions. blows: forces also act where there is no gas. */
+enum gas_failure gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regions,
+                                    uint32_t region_count, bool has_walls, bool blows,
+                                    struct kiln_error *error);
+
+/* Lets the groups of ways whose turn comes between two clip times begin anew: what cells carry then
+ * came from where it is. */
+void gas_solver_begin_ways(struct gas_solver *solver, float start_s, float end_s);
 
 /* Frees what is for the window. */
 void gas_solver_free_window(struct gas_solver *solver);

@@ -378,26 +378,40 @@ static void weaken(const struct gas_source *source, const struct gas_advect *ker
     }
 }
 
+/* Returns the first cell of a brick of the window in the domain. */
+static struct kiln_gas_place first_cell(const struct kiln_gas *gas, gas_brick_place at)
+{
+    return (struct kiln_gas_place){gas->at.x + at.x * GAS_BRICK, gas->at.y + at.y * GAS_BRICK,
+                                   gas->at.z + at.z * GAS_BRICK};
+}
+
 static bool reaches(const struct gas_region *region, struct kiln_gas_place brick)
 {
     return brick.x >= region->low.x && brick.x < region->high.x && brick.y >= region->low.y &&
            brick.y < region->high.y && brick.z >= region->low.z && brick.z < region->high.z;
 }
 
-static double add_source(const struct gas_source *source, const struct gas_pass *pass,
-                         const struct gas_advect *kernels, gas_brick_place at, bool *any)
+/* Finds the cells of a brick of the window that a source reaches in the end. */
+static void find_cells(const struct gas_source *source, const struct gas_pass *pass,
+                       const struct gas_advect *kernels, gas_brick_place at,
+                       struct reached *reached)
+{
+    const size_t index = kiln_gas_brick_index(pass->gas, at.x, at.y, at.z);
+    const struct gas_wall *wall = pass->walls ? pass->walls[index] : NULL;
+    find_reached(source, &pass->gas->shape, first_cell(pass->gas, at), wall, reached);
+    if (source->noise > 0.0f)
+        weaken(source, kernels, reached);
+}
+
+static void add_source(const struct gas_source *source, const struct gas_pass *pass,
+                       const struct gas_advect *kernels, gas_brick_place at, bool *any)
 {
     struct kiln_gas *gas = pass->gas;
     const struct kiln_gas_shape *shape = &gas->shape;
-    const size_t index = kiln_gas_brick_index(gas, at.x, at.y, at.z);
-    struct kiln_gas_brick *brick = &gas->brick[index];
-    const struct kiln_gas_place first = {gas->at.x + at.x * GAS_BRICK, gas->at.y + at.y * GAS_BRICK,
-                                         gas->at.z + at.z * GAS_BRICK};
+    struct kiln_gas_brick *brick = &gas->brick[kiln_gas_brick_index(gas, at.x, at.y, at.z)];
+    const size_t number = gas_brick_number(shape, first_cell(gas, at));
     struct reached reached;
-    find_reached(source, shape, first, pass->walls ? pass->walls[index] : NULL, &reached);
-    if (source->noise > 0.0f)
-        weaken(source, kernels, &reached);
-    double added = 0.0;
+    find_cells(source, pass, kernels, at, &reached);
     for (uint32_t k = 0; k < reached.points.count; k++) {
         const int32_t i = reached.cell[k];
         const ptrdiff_t carried = (ptrdiff_t)i * GAS_CARRIED;
@@ -415,24 +429,58 @@ static double add_source(const struct gas_source *source, const struct gas_pass 
                            0.5f * (gas->faces[1][face] + gas->faces[1][face + gas->row]),
                            0.5f * (gas->faces[2][face] + gas->faces[2][face + gas->plane])),
         };
-        const float before = cell.carried[GAS_SMOKE];
-        add_to_cell(
-            source, &cell, reached.within[k],
-            velocity_of(source, point_of(&reached.points, k), gas_brick_number(shape, first), i));
-        added += (double)cell.carried[GAS_SMOKE] - (double)before;
+        add_to_cell(source, &cell, reached.within[k],
+                    velocity_of(source, point_of(&reached.points, k), number, i));
     }
-    return added;
 }
 
-double gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
-                       const struct gas_advect *kernels, gas_brick_place at, bool *any)
+bool gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
+                     const struct gas_advect *kernels, gas_brick_place at)
 {
     const struct kiln_gas *gas = pass->gas;
     const struct kiln_gas_place brick = {gas->at.x / GAS_BRICK + at.x, gas->at.y / GAS_BRICK + at.y,
                                          gas->at.z / GAS_BRICK + at.z};
-    double added = 0.0;
+    bool any = false;
     for (uint32_t i = 0; i < sources->count; i++)
         if (reaches(&sources->source[i].region, brick))
-            added += add_source(&sources->source[i], pass, kernels, at, any);
-    return added;
+            add_source(&sources->source[i], pass, kernels, at, &any);
+    return any;
+}
+
+bool gas_sources_brings(const struct gas_sources *sources, uint32_t number,
+                        struct gas_brought *brought)
+{
+    if (number >= sources->count)
+        return false;
+    const struct gas_source *s = &sources->source[number];
+    *brought = (struct gas_brought){
+        .region = s->region,
+        .fuel = s->fuel,
+        .temperature = s->temperature,
+        .smoke = s->smoke,
+        .taken = s->taken,
+        .color = {s->color.x, s->color.y, s->color.z},
+        .blows = s->from->blows,
+    };
+    return true;
+}
+
+bool gas_sources_reach(const struct gas_sources *sources, const struct gas_pass *pass,
+                       const struct gas_advect *kernels, uint32_t number, gas_brick_place at,
+                       float4 *cells)
+{
+    const struct gas_source *source = &sources->source[number];
+    const struct kiln_gas_shape *shape = &pass->gas->shape;
+    const size_t brick = gas_brick_number(shape, first_cell(pass->gas, at));
+    bool any = false;
+    struct reached reached;
+    find_cells(source, pass, kernels, at, &reached);
+    memset(cells, 0, GAS_BRICK_CELLS * sizeof *cells);
+    for (uint32_t k = 0; k < reached.points.count; k++) {
+        const int32_t i = reached.cell[k];
+        const float3 v = velocity_of(source, point_of(&reached.points, k), brick, i);
+        any = any || reached.within[k] > 0.0f;
+        cells[i] = FLOAT4(v.x, v.y, v.z, reached.within[k]);
+    }
+    return any;
 }

@@ -50,9 +50,17 @@ bool gas_sources_set(struct gas_sources *sources, struct kiln_pool *pool, uint32
 /* Fills in what depends on the length of a substep, s. */
 void gas_sources_set_time(struct gas_sources *sources, float dt);
 
-/* Adds all sources to `now` and `change` of a brick, and returns how much smoke it added. Sets *any
- * if a source reaches a cell. */
-double gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
-                       const struct gas_advect *kernels, gas_brick_place at, bool *any);
+/* Adds all sources to `now` and `change` of a brick. Returns whether any reaches a cell. */
+bool gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
+                     const struct gas_advect *kernels, gas_brick_place at);
+
+/* The following are for passes in GL, which add sources by a kernel. brings: describes a source;
+ * false: there are no more. reach: fills in, for each cell of a brick, the velocity that the source
+ * blows with, m/s, and how far the cell lies in it, 0 to 1; returns whether any does. */
+bool gas_sources_brings(const struct gas_sources *sources, uint32_t number,
+                        struct gas_brought *brought);
+bool gas_sources_reach(const struct gas_sources *sources, const struct gas_pass *pass,
+                       const struct gas_advect *kernels, uint32_t number, gas_brick_place at,
+                       float4 *cells);
 
 #endif

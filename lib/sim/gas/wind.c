@@ -106,7 +106,7 @@ static void write_planes(void *context, size_t begin, size_t end, uint32_t worke
             }
 }
 
-bool kiln_gas_winds_write(const struct kiln_scene *scene, const struct kiln_pool *pool,
+bool kiln_gas_winds_write(const struct kiln_scene *scene, struct kiln_pool *pool,
                           const struct kiln_sim_params *params, struct kiln_threads *threads,
                           uint32_t step, struct kiln_error *error)
 {
@@ -118,7 +118,7 @@ bool kiln_gas_winds_write(const struct kiln_scene *scene, const struct kiln_pool
             if (force->kind != KILN_FORCE_GAS)
                 continue;
             float4 *words = kiln_buffer_host(&grids->words, KILN_READ_WRITE, error);
-            if (!words)
+            if (!words || !kiln_gas_fetch(&pool->gas[force->domain], error))
                 return false;
             const struct kiln_gas_domain *domain = &scene->gas[force->domain];
             const struct kiln_grid *grid =

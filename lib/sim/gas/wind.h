@@ -8,7 +8,7 @@
 
 /* Writes the grids of all winds of gas for the particles of a step, from the pool's gas after that
  * step of its own. */
-bool kiln_gas_winds_write(const struct kiln_scene *scene, const struct kiln_pool *pool,
+bool kiln_gas_winds_write(const struct kiln_scene *scene, struct kiln_pool *pool,
                           const struct kiln_sim_params *params, struct kiln_threads *threads,
                           uint32_t step, struct kiln_error *error);
 

@@ -26,10 +26,10 @@ void gas_solver_free_window(struct gas_solver *solver)
     free(solver->active.brick);
     free(solver->pushed.brick);
     free(solver->found);
-    free(solver->added);
+    free(solver->sourced);
     solver->active = solver->pushed = (struct gas_list){.count = 0};
     solver->found = NULL;
-    solver->added = NULL;
+    solver->sourced = NULL;
 }
 
 static bool init_window(struct gas_solver *solver)
@@ -40,8 +40,8 @@ static bool init_window(struct gas_solver *solver)
     solver->active.brick = calloc(bricks, sizeof *solver->active.brick);
     solver->pushed.brick = calloc(bricks, sizeof *solver->pushed.brick);
     solver->found = calloc(bricks, sizeof *solver->found);
-    solver->added = calloc(bricks, sizeof *solver->added);
-    return solver->active.brick && solver->pushed.brick && solver->found && solver->added &&
+    solver->sourced = calloc(bricks, sizeof *solver->sourced);
+    return solver->active.brick && solver->pushed.brick && solver->found && solver->sourced &&
            gas_levels_init(&solver->levels, solver->gas) &&
            (!solver->has_walls || gas_levels_add_walls(&solver->levels)) &&
            solver->passes->init_window(solver);
@@ -133,7 +133,8 @@ static bool is_closed(const struct kiln_gas_shape *shape)
     return closed;
 }
 
-static bool move_window(struct gas_solver *solver, const struct gas_region *box)
+static enum gas_failure move_window(struct gas_solver *solver, const struct gas_region *box,
+                                    struct kiln_error *error)
 {
     struct kiln_gas *gas = solver->gas;
     const struct kiln_gas_place all = gas->shape.cells, at = gas->at, n = gas->cells;
@@ -149,15 +150,19 @@ static bool move_window(struct gas_solver *solver, const struct gas_region *box)
                       fits(box->low.z, box->high.z, at.z, n.z, all.z);
     const double volume = (double)n.x * (double)n.y * (double)n.z;
     if (good && (closed || volume <= ROOMY * ((double)cells.x * (double)cells.y * (double)cells.z)))
-        return (solver->levels.count > 0 && solver->window == gas->window) || init_window(solver);
+        return (solver->levels.count > 0 && solver->window == gas->window) || init_window(solver)
+                   ? GAS_STEPPED
+                   : GAS_NO_MEMORY;
+    if (!kiln_gas_fetch(gas, error))
+        return GAS_STOPPED;
     gas_solver_free_window(solver); /* its pressure goes with the old window */
     if (!kiln_gas_set_window(gas, new_at, cells) || !init_window(solver))
-        return false;
+        return GAS_NO_MEMORY;
     solver->reached = true;
     solver->old_at = at;
     solver->old_cells = n;
     gas_new_air_rest(gas, at, n, &solver->rest);
-    return true;
+    return GAS_STEPPED;
 }
 
 /* ---- active bricks --------------------------------------------------------------------------- */
@@ -247,8 +252,9 @@ static void mark_pushed(const struct kiln_gas *gas, uint8_t *marks)
             }
 }
 
-bool gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regions,
-                        uint32_t region_count, bool has_walls, bool blows)
+enum gas_failure gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regions,
+                                    uint32_t region_count, bool has_walls, bool blows,
+                                    struct kiln_error *error)
 {
     static const struct kiln_gas_place none = {0, 0, 0};
     struct kiln_gas *gas = solver->gas;
@@ -259,16 +265,18 @@ bool gas_solver_prepare(struct gas_solver *solver, const struct gas_region *regi
     if (box.high.x <= box.low.x || box.high.y <= box.low.y || box.high.z <= box.low.z) {
         solver->active.count = solver->pushed.count = 0;
         gas_solver_free_window(solver);
-        return gas->cells.x == 0 || kiln_gas_set_window(gas, none, none);
+        return gas->cells.x == 0 || kiln_gas_set_window(gas, none, none) ? GAS_STEPPED
+                                                                         : GAS_NO_MEMORY;
     }
-    if (!move_window(solver, &box))
-        return false;
+    const enum gas_failure moved = move_window(solver, &box, error);
+    if (moved != GAS_STEPPED)
+        return moved;
     uint8_t *marks = calloc(brick_count(gas->bricks), 1);
     if (!marks)
-        return false;
+        return GAS_NO_MEMORY;
     mark_all(gas, marks, regions, region_count);
     mark_pushed(gas, marks);
     const bool ok = list_bricks(solver, marks);
     free(marks);
-    return ok;
+    return ok ? GAS_STEPPED : GAS_NO_MEMORY;
 }

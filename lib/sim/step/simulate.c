@@ -78,6 +78,7 @@ static bool choose_loop(struct kiln_simulate *s, struct kiln_error *error)
 struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            enum kiln_simulate_technique technique,
+                                           enum kiln_gas_technique gas,
                                            struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_simulate *simulate = calloc(1, sizeof *simulate);
@@ -95,7 +96,7 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     kiln_buffer_init(&simulate->traces, side,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
     ok = ok && kiln_bakes_init(&simulate->bakes, side, scene, &simulate->grids, error) &&
-         kiln_gas_stage_init(&simulate->gas, scene, threads, error) &&
+         kiln_gas_stage_init(&simulate->gas, device, scene, gas, threads, error) &&
          kiln_interact_init(&simulate->interact, side, scene, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
     ok = ok &&
@@ -209,12 +210,14 @@ bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,
                         struct kiln_state_hash *hash, uint64_t *alive, struct kiln_error *error)
 {
     const bool host = simulate->row == NULL;
-    const bool ok = host ? kiln_sim_cpu_hash(simulate->threads, pool, hash, alive, error)
-                         : kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
+    bool ok = host ? kiln_sim_cpu_hash(simulate->threads, pool, hash, alive, error)
+                   : kiln_sim_hash_run(&simulate->hash, pool, hash, alive, error);
     if (ok)
         kiln_paint_hash(pool, hash);
-    for (uint32_t i = 0; ok && i < pool->gas_count; i++)
+    for (uint32_t i = 0; ok && i < pool->gas_count; i++) {
+        ok = kiln_gas_fetch(&pool->gas[i], error);
         kiln_gas_hash(&pool->gas[i], i, hash);
+    }
     return ok;
 }
 

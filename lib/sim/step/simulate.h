@@ -5,6 +5,7 @@
 #include "base/thread.h"
 #include "particles/pool.h"
 #include "scene/scene.h"
+#include "sim/gas/gas.h"
 
 enum kiln_simulate_technique {
     KILN_SIMULATE_CPU,
@@ -16,12 +17,13 @@ enum kiln_simulate_technique {
 
 struct kiln_simulate;
 
-/* Creates the stage. device may be NULL for `cpu`; scene and threads are borrowed. KILN_USAGE when
- * the device lacks what the technique needs; KILN_NO_DEVICE when it is inexact in a stage that the
- * technique runs on. */
+/* Creates the stage. gas: technique that steps gas. device may be NULL if both are `cpu`; scene and
+ * threads are borrowed. KILN_USAGE when the device lacks what the technique needs; KILN_NO_DEVICE
+ * when it is inexact in a stage that the technique runs on. */
 struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            enum kiln_simulate_technique technique,
+                                           enum kiln_gas_technique gas,
                                            struct kiln_threads *threads, struct kiln_error *error);
 
 /* Adds the memory of the technique `cpu`, without pools. */

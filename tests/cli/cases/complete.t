@@ -25,6 +25,8 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,simulate=pingpong	compute, from one buffer to another; it takes twice the memory
 1|word	sort=cpu,simulate=feedback	geometry shaders and transform feedback; they take twice the memory
 1|word	sort=cpu,simulate=texels	fragment shaders, from textures to textures; they take three times the memory
+1|word	sort=cpu,gas=cpu	host threads, rows and bricks of cells in vectors
+1|word	sort=cpu,gas=gl	compute; the gas stays in GL
 1|word	sort=cpu,sort=cpu	stable radix sort, host threads
 1|word	sort=cpu,sort=radix	stable radix sort, compute
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two

@@ -529,6 +529,8 @@ $ kiln help techniques
 1|  simulate=pingpong  compute, from one buffer to another; it takes twice the memory
 1|  simulate=feedback  geometry shaders and transform feedback; they take twice the memory
 1|  simulate=texels    fragment shaders, from textures to textures; they take three times the memory
+1|  gas=cpu            host threads, rows and bricks of cells in vectors
+1|  gas=gl             compute; the gas stays in GL
 1|  sort=cpu           stable radix sort, host threads
 1|  sort=radix         stable radix sort, compute
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
@@ -546,6 +548,7 @@ $ kiln help techniques
 1|
 1|'auto' on a software device:
 1|  simulate=cpu       threads run the step faster than GL on the same cores
+1|  gas=cpu            vectors on the host are some 20 times as fast as GL on the same cores
 1|  sort=cpu           threads sort several times as fast as GL on the same cores
 1|  backdrop=cpu       vectors on the host are several times as fast as GL on the same cores
 1|  raster=cpu         vectors on the host draw several times as fast as GL on the same cores
@@ -554,6 +557,7 @@ $ kiln help techniques
 1|
 1|'auto' on a GPU:
 1|  simulate=inplace   particles stay in one buffer; it takes the least memory in GL
+1|  gas=gl             all cells of a pass are computed at once, where they lie
 1|  sort=bitonic       up to 250,000 particles it is the fastest sort on a GPU
 1|  backdrop=gl        the hardware casts the rays
 1|  raster=tiled       compute draws faster than the blending units of a server's GPU
@@ -562,6 +566,7 @@ $ kiln help techniques
 1|
 1|'auto' on a GPU that computes inexactly:
 1|  simulate=cpu       only exact arithmetic may move particles
+1|  gas=cpu            only exact arithmetic may move gas
 1|  sort=cpu           only exact arithmetic may order particles
 1|  backdrop=gl        the hardware casts the rays
 1|  raster=tiled       compute draws faster than the blending units of a server's GPU
