@@ -25,6 +25,7 @@ struct particle_pass {
     bool keep_bloom; /* do not clear the bloom image */
     bool sum_alpha, fire_covers;
     bool by_fragment;
+    float smoke, flame; /* the light of gas that particles cover: struct kiln_tile_gas */
     /* NULL, or for the colour of covering and of additive particles alone; become NULL if they need
      * passes of their own */
     struct kiln_image *covering, *added;
@@ -116,6 +117,14 @@ static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, ui
     if (!sort_particles(s, pass->systems, pass->by_depth, count, error))
         return false;
 
+    const struct kiln_volume_profiles *profiles =
+        s->volume ? kiln_volume_profiles(s->volume) : NULL;
+    const struct kiln_tile_gas gas = {.profiles = profiles,
+                                      .width = s->scene->width,
+                                      .height = s->scene->height,
+                                      .scale = 1.0f,
+                                      .smoke = pass->smoke,
+                                      .flame = pass->flame};
     struct kiln_particles_draw draw = {
         .moment = &s->moment,
         .entries = &s->entries,
@@ -129,6 +138,7 @@ static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, ui
         .sum_alpha = pass->sum_alpha,
         .fire_covers = pass->fire_covers,
         .by_fragment = pass->by_fragment,
+        .gas = profiles ? &gas : NULL,
     };
     if (s->coarse || !kiln_particles_splits(s->particles, &draw, pass->systems))
         pass->covering = NULL;
@@ -167,6 +177,8 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
                                 .keep_bloom = s->solids || s->volume,
                                 .fire_covers = fire_covers,
                                 .by_fragment = by_fragment,
+                                .smoke = 1.0f,
+                                .flame = 1.0f,
                                 .covering = s->layers ? &s->smoke_color : NULL,
                                 .added = s->layers ? &s->fire_color : NULL};
     if (!draw_particles(s, &all, drawn, error))
@@ -177,10 +189,12 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
     uint32_t count = 0;
     struct particle_pass smoke_layer = {.systems = smoke,
                                         .by_depth = true,
+                                        .smoke = 1.0f,
                                         .framebuffer = &s->smoke_framebuffer,
                                         .by_fragment = by_fragment};
     struct particle_pass fire_layer = {.systems = fire,
                                        .by_depth = fire_covers,
+                                       .flame = 1.0f,
                                        .framebuffer = &s->fire_framebuffer,
                                        .fire_covers = fire_covers};
     return (all.covering || draw_particles(s, &smoke_layer, &count, error)) &&
@@ -193,6 +207,7 @@ static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_er
 {
     struct particle_pass smoke = {.systems = transparent_systems(s, KILN_BLEND_ALPHA),
                                   .by_depth = true,
+                                  .smoke = 1.0f,
                                   .framebuffer = &s->particle_framebuffer,
                                   .keep_bloom = s->solids || s->volume};
     struct particle_pass fire = {.systems = transparent_systems(s, KILN_BLEND_ADD),
@@ -275,6 +290,14 @@ static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_err
                                    kiln_coarse_prepare(s->coarse, &s->scene_depth, error), error));
 }
 
+/* Returns whether there are particles that are blended with gas by its profiles. */
+static bool blends_with_gas(const struct kiln_stages *s)
+{
+    const uint64_t systems =
+        transparent_systems(s, KILN_BLEND_ADD) | transparent_systems(s, KILN_BLEND_ALPHA);
+    return systems != 0 && kiln_particles_blends_with_gas(s->particles);
+}
+
 /* Draws gas, and its glow, before the particles. */
 static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, struct kiln_error *error)
 {
@@ -283,6 +306,7 @@ static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, struct
                                           .backdrop = kiln_backdrop_block(s->backdrop),
                                           .lighting = &s->light,
                                           .depth = &s->scene_depth,
+                                          .profiles = blends_with_gas(s),
                                           .same = s->same_instant};
     return RUN_PASS(
         s, KILN_PASS_gas,

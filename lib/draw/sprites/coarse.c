@@ -123,6 +123,14 @@ static bool draw_coarse(struct kiln_coarse_stage *stage, const struct kiln_parti
     coarse.depth = &stage->images.depth;
     coarse.framebuffer = &stage->images.framebuffer;
     coarse.keep_bloom = false;
+    struct kiln_tile_gas gas;
+    if (draw->gas) {
+        gas = *draw->gas;
+        gas.scale = (float)stage->images.factor;
+        gas.margin_x = stage->images.margin_x;
+        gas.margin_y = stage->images.margin_y;
+        coarse.gas = &gas;
+    }
     return kiln_particles_run(stage->particles, &coarse, error);
 }
 

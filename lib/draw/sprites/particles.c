@@ -76,6 +76,11 @@ bool kiln_particles_adds_apart(const struct kiln_particles_stage *stage,
            !draw->by_fragment;
 }
 
+bool kiln_particles_blends_with_gas(const struct kiln_particles_stage *stage)
+{
+    return stage->technique == KILN_RASTER_CPU;
+}
+
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {

@@ -6,6 +6,7 @@
 #include "asset/atlas/atlas.h"
 #include "base/thread.h"
 #include "draw/light/lighting.h"
+#include "draw/sprites/tile.h"
 #include "gpu/framebuffer.h"
 
 enum kiln_raster_technique {
@@ -47,6 +48,9 @@ struct kiln_particles_draw {
      * fire_covers must be false. */
     bool by_fragment;
     bool fire_covers; /* true: blends by premultiplied `over`; additive particles cover, too */
+    /* The gas that particles are blended with; NULL: there is none. Rasters in GL do not read it.
+     */
+    const struct kiln_tile_gas *gas;
     /* NULL, or gets the colour and alpha of covering particles alone, if kiln_particles_splits */
     struct kiln_image *covering;
     /* NULL, or gets the colour of additive particles alone, as if no other particle hid them, if
@@ -63,6 +67,9 @@ bool kiln_particles_splits(const struct kiln_particles_stage *stage,
  * draws a pass. */
 bool kiln_particles_adds_apart(const struct kiln_particles_stage *stage,
                                const struct kiln_particles_draw *draw);
+
+/* Returns whether the stage reads the gas of a pass. */
+bool kiln_particles_blends_with_gas(const struct kiln_particles_stage *stage);
 
 /* Draws the particles of a pass into draw->framebuffer. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

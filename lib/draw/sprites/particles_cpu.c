@@ -174,8 +174,37 @@ static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln
 struct tile_job {
     struct kiln_raster_cpu *tiles;
     struct kiln_tile_target target;
-    size_t first_tile; /* number of the first tile to draw */
+    const struct kiln_tile_gas *gas; /* NULL: there is none */
+    size_t first_tile;               /* number of the first tile to draw */
 };
+
+/* Returns the depth before which no gas lies in a tile; 1e9 where there is none. */
+static float nearest_gas(const struct kiln_tile *tile, const struct kiln_tile_gas *gas)
+{
+    const float x = (float)tile->x * gas->scale - gas->margin_x;
+    const float y = (float)tile->y * gas->scale - gas->margin_y;
+    const float right = x + (float)tile->width * gas->scale, zero = 0.0f;
+    const float bottom = y + (float)tile->height * gas->scale;
+    const uint32_t across = gas->profiles->across, down = gas->profiles->tiles / across;
+    const uint32_t x_from = exact_uint(exact_max(x, zero)) / VOLUME_TILE;
+    const uint32_t y_from = exact_uint(exact_max(y, zero)) / VOLUME_TILE;
+    const uint32_t x_to = exact_uint(exact_max(right, zero)) / VOLUME_TILE + 1;
+    const uint32_t y_to = exact_uint(exact_max(bottom, zero)) / VOLUME_TILE + 1;
+    float near_m = 1e9f;
+    for (uint32_t i = 0; i < gas->profiles->count; i++)
+        for (uint32_t row = y_from; row < y_to && row < down; row++)
+            for (uint32_t column = x_from; column < x_to && column < across; column++)
+                near_m = exact_min(near_m,
+                                   gas->profiles->domains[i].near_m[(size_t)row * across + column]);
+    return near_m;
+}
+
+/* Lets a tile's sprites be blended with the gas that lies in it. gas: NULL: there is none. */
+static void set_gas(struct kiln_tile *tile, const struct kiln_tile_gas *gas)
+{
+    tile->gas_near_m = gas ? nearest_gas(tile, gas) : 1e9f;
+    tile->gas = tile->gas_near_m < 1e9f ? gas : NULL;
+}
 
 static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
 {
@@ -192,6 +221,7 @@ static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
     const uint32_t *list = bins->list + bins->first[number];
     kiln_tile_begin(&d->target, tile, x, y);
     tile->nearest = bins->depth[number].nearest;
+    set_gas(tile, d->gas);
     if (!d->target.by_fragment)
         tiles->draw(tile, tiles->sprites, tiles->cells, list, count);
     else
@@ -400,7 +430,7 @@ static enum kiln_tile_glow choose_glow(const struct kiln_particles_draw *draw, f
 {
     if (draw->framebuffer->count < 2)
         return KILN_TILE_GLOW_NONE;
-    if (draw->keep_bloom || draw->by_fragment)
+    if (draw->keep_bloom || draw->by_fragment || draw->gas)
         return KILN_TILE_GLOW_WEIGHED;
     enum kiln_tile_glow glow = KILN_TILE_GLOW_NONE;
     const struct kiln_moment *moment = draw->moment;
@@ -421,7 +451,8 @@ bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint64_t sys
 {
     const struct kiln_moment *moment = draw->moment;
     float weights[3];
-    if (choose_glow(draw, weights) != KILN_TILE_GLOW_APART || draw->sum_alpha || draw->fire_covers)
+    if (choose_glow(draw, weights) != KILN_TILE_GLOW_APART || draw->sum_alpha ||
+        draw->fire_covers || draw->gas)
         return false;
     for (uint32_t i = 0; i < moment->scene->system_count; i++) {
         const bool drawn = systems >> i & 1, adds = moment->looks[i].flags.x != 0;
@@ -457,6 +488,7 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
 {
     const uint32_t most = draw->by_fragment ? SORTED_AT_A_TIME : SPRITES_AT_A_TIME;
     struct tile_job job = {.tiles = tiles,
+                           .gas = draw->gas,
                            .target = {.first = true,
                                       .keep_bloom = draw->keep_bloom,
                                       .sum = draw->sum_alpha,

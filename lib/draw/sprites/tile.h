@@ -6,6 +6,7 @@
 
 #include "base/simd.h"
 #include "draw/sprites/sprite.h"
+#include "draw/volume/volume_profile.h"
 
 enum {
     KILN_TILE_WIDTH = 64,
@@ -36,6 +37,15 @@ enum kiln_tile_plane {
     KILN_TILE_PLANES,
 };
 
+/* The gas that sprites of a picture are blended with. */
+struct kiln_tile_gas {
+    const struct kiln_volume_profiles *profiles;
+    uint32_t width, height;   /* of the picture of the gas, px */
+    float scale;              /* pixels of that picture along an edge of a pixel */
+    float margin_x, margin_y; /* by which the picture of sprites reaches beyond it, px of it */
+    float smoke, flame;       /* 1: sprites cover this light of gas; 0: they have none of it */
+};
+
 struct kiln_tile {
     /* The last row lies outside of the tile; padding units are drawn into it. */
     _Alignas(64) float pixels[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
@@ -52,9 +62,11 @@ struct kiln_tile {
     /* a bit for each pixel: it or one of the seven after it is transparent; the left and the right
      * half of each row; valid if has_opaque; rows beyond the tile are read, but do not matter */
     _Alignas(64) int32_t seen[2][2 * KILN_TILE_HEIGHT];
-    bool has_opaque; /* true: some pixels hide the sprites behind them */
-    bool adds_apart; /* true: `added` is drawn, too */
-    bool over;       /* true: sprites cover those behind them; false: alpha is summed */
+    bool has_opaque;                 /* true: some pixels hide the sprites behind them */
+    bool adds_apart;                 /* true: `added` is drawn, too */
+    const struct kiln_tile_gas *gas; /* NULL: there is none */
+    float gas_near_m;                /* no gas is nearer */
+    bool over; /* true: sprites cover those behind them; false: alpha is summed */
 };
 
 /* Draws sprites into the tile. The list has the farthest sprite first. Sprites are drawn from the

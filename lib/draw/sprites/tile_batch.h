@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_SPRITES_TILE_BATCH_H
 #define KILN_DRAW_SPRITES_TILE_BATCH_H
 
+#include "draw/sprites/tile_gas.h"
 #include "draw/sprites/tile_shade.h"
 
 /* Adds colour to the pixels at the offsets, and its glow. */
@@ -57,6 +58,7 @@ struct target {
     const struct kiln_sprite_extra *extra; /* set if kiln_sprite_has_extra */
     struct brush brush;
     float (*added)[KILN_TILE_PITCH]; /* the tile's, or NULL if the sprite is not added apart */
+    bool behind_gas;                 /* gas may lie before it */
     bool hidden;                     /* true: it is only added apart, since opaque pixels hide it */
 };
 
@@ -169,6 +171,24 @@ SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b,
                              : quads_sum(quads, sample_quads(b->next, next_texels, next, b->part)));
 }
 
+/* Blends colour of pixels, and its glow, with the gas before them. alpha: by which they hide what
+ * is behind them. */
+SIMD void blend_in_gas(const struct target *d, const int32_t *at, const struct gas_before *gas,
+                       vf rgb[3], vf alpha)
+{
+    float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
+    for (int c = 0; c < 3 && d->tile->glow == KILN_TILE_GLOW_WEIGHED; c++) {
+        float *glow = planes[KILN_TILE_GLOW_RED + c];
+        const vf added = rgb[c] * gas->clear * d->s->bloom[c] + alpha * gas->glow[c];
+        vf_store_units(glow, at, vf_load_units(glow, at) + added);
+    }
+    for (int c = 0; c < 3; c++) {
+        float *color = planes[KILN_TILE_RED + c];
+        const vf added = rgb[c] * gas->clear + alpha * gas->light[c];
+        vf_store_units(color, at, vf_load_units(color, at) + added);
+    }
+}
+
 /* Draws vector i of a batch behind the sprites that were drawn before. */
 SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, struct shaded c,
                       bool multiplied, bool deep, bool covers)
@@ -187,8 +207,12 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
         left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
     if (d->brush.rim)
         left *= batch->rim[i];
+    struct gas_before gas;
+    if (d->behind_gas)
+        find_gas(d->tile, at, deep ? batch->depth[i] : vf_all(s->depth), &gas);
     if (!covers && d->added) {
-        add_apart(d->added, at, c.rgb, multiplied ? left : c.alpha * left);
+        const vf weight = multiplied ? left : c.alpha * left;
+        add_apart(d->added, at, c.rgb, d->behind_gas ? weight * gas.clear : weight);
         if (d->hidden)
             return;
     }
@@ -199,7 +223,10 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
     vf alpha = c.alpha * left;
     for (int k = 0; k < 3; k++)
         c.rgb[k] *= multiplied ? left : alpha;
-    blend(planes, at, &d->brush, s->bloom, c.rgb);
+    if (d->behind_gas)
+        blend_in_gas(d, at, &gas, c.rgb, covers ? alpha : vf_all(0.0f));
+    else
+        blend(planes, at, &d->brush, s->bloom, c.rgb);
     if (covers) {
         before += alpha;
         vf_store_units(planes[KILN_TILE_ALPHA], at, over ? vf_min(before, vf_all(1.0f)) : before);

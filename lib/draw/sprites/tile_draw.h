@@ -136,7 +136,11 @@ SIMD bool begin_target(struct kiln_tile *tile, const struct kiln_sprite *s,
                        const struct kiln_sprite_extra *extra, const struct box *box, bool covers,
                        struct target *d)
 {
-    *d = (struct target){.tile = tile, .s = s, .extra = extra};
+    const bool deep = (s->flags & KILN_SPRITE_DEEP) != 0;
+    *d = (struct target){.tile = tile,
+                         .s = s,
+                         .extra = extra,
+                         .behind_gas = tile->gas && (deep || s->depth > tile->gas_near_m)};
     if (!covers && tile->adds_apart)
         d->added = tile->added[0];
     if (!tile->has_opaque)

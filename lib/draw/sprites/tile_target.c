@@ -107,6 +107,7 @@ void kiln_tile_begin(const struct kiln_tile_target *target, struct kiln_tile *ti
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
     tile->glow = target->glow;
     tile->adds_apart = target->added != NULL;
+    tile->gas = NULL;
     tile->over = !target->sum && !target->by_fragment;
     for (int row = 0; row < tile->height; row++)
         begin_row(target, tile, row, (size_t)(y + (uint32_t)row) * target->width + x);

@@ -14,8 +14,10 @@
 #include "draw/volume/volume_glow.h"
 #include "draw/volume/volume_lamps.h"
 #include "draw/volume/volume_march.h"
+#include "draw/volume/volume_order.h"
 #include "draw/volume/volume_tiles.h"
 #include "scene/gas_extent.h"
+#include "scene/work.h"
 
 struct kiln_volume_stage {
     const struct kiln_scene *scene;
@@ -32,6 +34,7 @@ struct kiln_volume_stage {
     struct kiln_volume_tiles tiles;
     uint8_t *touched; /* of each tile: gas was drawn there */
     struct kiln_volume_planes planes;
+    struct kiln_volume_profiles profiles;
     uint32_t width, height;
 };
 
@@ -87,6 +90,7 @@ void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint
 {
     const uint64_t pixels = (uint64_t)scene->width * scene->height;
     uint64_t largest = 0;
+    uint32_t drawn = 0;
     if (!kiln_volume_exists(scene))
         return;
     for (uint32_t i = 0; i < scene->gas_count; i++) {
@@ -95,11 +99,14 @@ void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint
         const uint64_t bytes = kiln_volume_field_bytes(&scene->gas[i].shape, extent.bricks) +
                                kiln_volume_slices_bytes(cells) + kiln_volume_glow_bytes(cells);
         largest = scene->gas[i].enabled && bytes > largest ? bytes : largest;
+        drawn += scene->gas[i].enabled;
     }
     kiln_footprint_add(footprint, KILN_FOOTPRINT_GAS, 1, largest);
     if (scene->backdrop.object_count > 0)
         kiln_sun_shade_footprint(scene, footprint);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, 12 * sizeof(float));
+    if (kiln_scene_sprite_slots(scene) > 0)
+        kiln_volume_profiles_footprint(drawn, scene->width, scene->height, footprint);
 }
 
 void kiln_volume_destroy(struct kiln_volume_stage **stage)
@@ -110,6 +117,7 @@ void kiln_volume_destroy(struct kiln_volume_stage **stage)
     kiln_volume_field_finish(&s->field);
     kiln_volume_glow_finish(&s->glow);
     kiln_volume_tiles_finish(&s->tiles);
+    kiln_volume_profiles_finish(&s->profiles);
     kiln_sun_shade_destroy(&s->shade);
     free(s->slices.floats);
     free(s->planes.smoke);
@@ -379,6 +387,7 @@ struct march_job {
     struct kiln_volume_stage *stage;
     const struct kiln_volume_march *march;
     const struct kiln_volume_march_rows *rows;
+    struct kiln_volume_domain *profiles; /* NULL: they are not needed */
 };
 
 /* Draws the tiles of a row of tiles. */
@@ -395,6 +404,8 @@ static void march_tiles(void *context, size_t begin, size_t end, uint32_t worker
                                                   depths.near_m, depths.far_m};
             if (!(depths.near_m < depths.far_m))
                 continue;
+            if (job->profiles)
+                job->profiles->near_m[number] = depths.near_m;
             job->rows->draw(job->march, &tile);
             job->stage->touched[number] = 1;
         }
@@ -420,9 +431,11 @@ static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
     return true;
 }
 
-/* Draws a domain. kept: whether the field may still be that of this domain. */
+/* Draws a domain. kept: whether the field may still be that of this domain. profiles: NULL, or gets
+ * its profiles. */
 static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_draw *draw,
-                        uint32_t number, const float *depth, bool kept, struct kiln_error *error)
+                        uint32_t number, const float *depth, bool kept,
+                        struct kiln_volume_domain *profiles, struct kiln_error *error)
 {
     const struct kiln_gas *gas = &draw->pool->gas[number];
     struct domain domain = {.march.depth = depth};
@@ -434,40 +447,14 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
         return false;
     if (s->field.count == 0)
         return true;
-    struct march_job job = {s, &domain.march, KILN_SIMD_PICK(kiln_volume_march_rows, s->simd)};
+    struct march_job job = {s, &domain.march, KILN_SIMD_PICK(kiln_volume_march_rows, s->simd),
+                            profiles};
+    if (profiles) {
+        domain.march.profiles = profiles;
+        profiles->bloom = domain.march.bloom;
+    }
     return kiln_volume_tiles_find(&s->tiles, &domain.march, s->threads, error) &&
            kiln_threads_try(s->threads, tiles_along(s->height), 1, march_tiles, &job, error);
-}
-
-/* Lists the domains that are drawn, from the farthest to the nearest by their middles. */
-static uint32_t order_domains(const struct kiln_scene *scene, const struct kiln_moment *moment,
-                              const struct kiln_pool *pool, uint32_t order[KILN_MAX_GAS])
-{
-    float distance[KILN_MAX_GAS];
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->gas_count && i < pool->gas_count; i++) {
-        const struct kiln_gas *gas = &pool->gas[i];
-        if (!scene->gas[i].enabled || gas->cells.x == 0)
-            continue;
-        const struct kiln_gas_shape *shape = &gas->shape;
-        const float half = 0.5f * shape->cell;
-        const float3 middle = {shape->corner.x + half * (float)shape->cells.x,
-                               shape->corner.y + half * (float)shape->cells.y,
-                               shape->corner.z + half * (float)shape->cells.z};
-        const float4 eye = moment->view.eye;
-        const float3 at =
-            kiln_attached_point(scene, &scene->gas[i].attach, middle, moment->view.clock.x);
-        const float3 way = {at.x - eye.x, at.y - eye.y, at.z - eye.z};
-        const float square = float3_dot(way, way);
-        uint32_t place = count++;
-        for (; place > 0 && distance[place - 1] < square; place--) {
-            distance[place] = distance[place - 1];
-            order[place] = order[place - 1];
-        }
-        distance[place] = square;
-        order[place] = i;
-    }
-    return count;
 }
 
 /* ---- pictures -------------------------------------------------------------------------------- */
@@ -488,20 +475,33 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
 {
     uint32_t order[KILN_MAX_GAS];
     const struct kiln_moment *moment = draw->moment;
-    const uint32_t count = draw->pool ? order_domains(stage->scene, moment, draw->pool, order) : 0;
+    const uint32_t count =
+        draw->pool ? kiln_volume_order(stage->scene, moment, draw->pool, order) : 0;
     memset(stage->touched, 0, tile_count(stage->scene));
+    stage->profiles.count = 0;
     if (count == 0)
         return true;
+    if (draw->profiles &&
+        !kiln_volume_profiles_begin(&stage->profiles, count, stage->width, stage->height, error))
+        return false;
     if (stage->shade)
         kiln_sun_shade_place(stage->shade, moment);
     const float *depths = kiln_image_host(draw->depth, KILN_READ, error);
     if (!depths || !kiln_threads_try(stage->threads, stage->height, 64, clear_rows, stage, error))
         return false;
     const bool kept = draw->same && count == 1;
-    for (uint32_t i = 0; i < count; i++)
-        if (!draw_domain(stage, draw, order[i], depths, kept, error))
+    for (uint32_t i = 0; i < count; i++) {
+        struct kiln_volume_domain *domain = &stage->profiles.domains[count - 1 - i];
+        if (!draw_domain(stage, draw, order[i], depths, kept, draw->profiles ? domain : NULL,
+                         error))
             return false;
+    }
     return true;
+}
+
+const struct kiln_volume_profiles *kiln_volume_profiles(const struct kiln_volume_stage *stage)
+{
+    return stage->profiles.count > 0 ? &stage->profiles : NULL;
 }
 
 struct put_job {

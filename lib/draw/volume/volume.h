@@ -2,14 +2,16 @@
  * 2.3.2). It always runs on the host, in vectors, from the states of the domains. Its pictures are
  * the same bytes on every machine.
  *
- * Gas hides the backdrop, objects and solid particles behind it, and lies behind all other
- * particles. */
+ * Gas hides the backdrop, objects and solid particles behind it. Other particles are blended with
+ * it by the profiles of its rays (volume_profile.h); rasters that do not read profiles draw it
+ * behind them. */
 #ifndef KILN_DRAW_VOLUME_VOLUME_H
 #define KILN_DRAW_VOLUME_VOLUME_H
 
 #include "base/footprint.h"
 #include "base/thread.h"
 #include "draw/light/lighting.h"
+#include "draw/volume/volume_profile.h"
 #include "gpu/image.h"
 
 struct kiln_volume_stage;
@@ -41,12 +43,17 @@ struct kiln_volume_draw {
     const struct kiln_draw_backdrop *backdrop; /* the sun, the sky and lamps */
     const struct kiln_lighting *lighting;      /* what is in the way of lamps; NULL: nothing */
     struct kiln_image *depth;                  /* of the scene, m */
+    bool profiles;                             /* kiln_volume_profiles will be called */
     bool same; /* true: nothing but the view is other than in the last call */
 };
 
 /* Draws gas to planes that the stage keeps. */
 bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
                       struct kiln_error *error);
+
+/* Returns the profiles of the gas that was drawn last; NULL if no gas was seen, or they were not
+ * asked for. They are valid until the next call of kiln_volume_draw. */
+const struct kiln_volume_profiles *kiln_volume_profiles(const struct kiln_volume_stage *stage);
 
 /* Draws the glow of flames over an image: the gas dims the glow behind it. keep: false if nothing
  * was drawn to the image before. */

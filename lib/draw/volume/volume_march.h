@@ -6,12 +6,8 @@
 #include "base/simd.h"
 #include "draw/light/flame_colors.h"
 #include "draw/volume/volume_field.h"
+#include "draw/volume/volume_profile.h"
 #include "shared/draw_layout.h"
-
-enum {
-    VOLUME_PACKET = 8, /* pixels side by side in a row whose rays march together */
-    VOLUME_TILE = 8,   /* pixels along an edge of a tile */
-};
 
 /* The length of a step, cells; half of it where the finest noise is drawn. */
 #define VOLUME_STEP 0.75f
@@ -54,6 +50,7 @@ struct kiln_volume_march {
     const float *depth; /* of the scene, m; rows of `width` floats */
     uint32_t width, height;
     struct kiln_volume_planes planes;
+    struct kiln_volume_domain *profiles; /* which are written; NULL: they are not needed */
 };
 
 /* A tile of the picture, and the depths between which blocks lie in it. */

@@ -8,9 +8,7 @@
 #include "draw/vector/haze_color.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_noise.h"
-
-/* What remains of the light behind gas counts as nothing below this part. */
-#define OPAQUE_BELOW 0.002f
+#include "draw/volume/volume_record.h"
 
 /* How much noise changes the amount of gas: the deviation of its logarithm, of one octave. */
 #define DETAIL 0.6f
@@ -24,6 +22,7 @@ struct packet {
     struct eight first,
         wide;           /* phase functions of the sun's light, scattered once and more often */
     struct eight clear; /* what gas leaves of the light behind it */
+    struct eight depth; /* optical depth of the gas so far */
     struct eight smoke[3], flame[3];
     struct eight weight, far; /* of what is seen: its amount, and that times its distance, cells */
 };
@@ -321,6 +320,7 @@ SIMD void shade(const struct kiln_volume_march *m, struct packet *p, const struc
                 seen * scatters * (sun * m->sun[i] + values[VOLUME_RED + i].part[k]);
         }
         p->clear.part[k] *= left;
+        p->depth.part[k] += depth;
         const vf amount = seen * (extinction + flame);
         p->weight.part[k] += amount;
         p->far.part[k] += amount * at->middle.part[k];
@@ -339,7 +339,7 @@ SIMD bool end_rays(const struct kiln_volume_march *m, struct packet *p, float st
     bool some = false;
     EIGHT_EACH(k)
     {
-        const vi opaque = p->clear.part[k] < OPAQUE_BELOW;
+        const vi opaque = p->clear.part[k] < VOLUME_OPAQUE_BELOW;
         p->clear.part[k] = vf_select(opaque, vf_all(0.0f), p->clear.part[k]);
         p->to.part[k] = vf_select(opaque, vf_all(0.0f), p->to.part[k]);
         some |= any((p->to.part[k] > (step + 1.0f) * m->step) & (p->from.part[k] < p->to.part[k]));
@@ -347,26 +347,43 @@ SIMD bool end_rays(const struct kiln_volume_march *m, struct packet *p, float st
     return some;
 }
 
-/* Veils the gas of rays by the haze before it. All of it counts as far away as it is in the mean of
+/* The haze before the gas of rays. */
+struct veil {
+    struct eight clear; /* the part of the gas's light that comes through */
+    struct vf3 color[EIGHT_PARTS];
+};
+
+/* Returns the haze before the gas of rays. All of it counts as far away as it is in the mean of
  * what is seen. */
-SIMD_ONCE void veil(const struct kiln_volume_march *m, struct packet *p)
+SIMD_ONCE void find_veil(const struct kiln_volume_march *m, const struct packet *p, struct veil *v)
 {
     EIGHT_EACH(k)
     {
         const vf weight = vf_max(p->weight.part[k], vf_all(1e-20f));
         const vf distance = p->far.part[k] / weight * m->cell_m;
-        const vf clear = haze_clear(m->haze->floor_params.z, vf_all(1.0f), distance);
+        v->clear.part[k] = haze_clear(m->haze->floor_params.z, vf_all(1.0f), distance);
         struct vf3 way;
         vf *const axes[3] = {&way.x, &way.y, &way.z};
         for (int i = 0; i < 3; i++)
             *axes[i] = m->world[i][0] * p->way[0].part[k] + m->world[i][1] * p->way[1].part[k] +
                        m->world[i][2] * p->way[2].part[k];
-        const struct vf3 color = haze_toward(m->haze, haze_level(way));
-        const vf hidden = (1.0f - p->clear.part[k]) * (1.0f - clear);
-        const vf added[3] = {color.x * hidden, color.y * hidden, color.z * hidden};
+        v->color[k] = haze_toward(m->haze, haze_level(way));
+    }
+}
+
+/* Veils light of gas that lets the part `through` of what is behind it through. */
+SIMD void veil(const struct veil *v, struct eight through, struct eight smoke[3],
+               struct eight flame[3])
+{
+    EIGHT_EACH(k)
+    {
+        const vf clear = v->clear.part[k];
+        const vf hidden = (1.0f - through.part[k]) * (1.0f - clear);
+        const vf added[3] = {v->color[k].x * hidden, v->color[k].y * hidden,
+                             v->color[k].z * hidden};
         for (int i = 0; i < 3; i++) {
-            p->smoke[i].part[k] = p->smoke[i].part[k] * clear + added[i];
-            p->flame[i].part[k] *= clear;
+            smoke[i].part[k] = smoke[i].part[k] * clear + added[i];
+            flame[i].part[k] *= clear;
         }
     }
 }
@@ -396,19 +413,58 @@ static void store_pixels(const struct kiln_volume_march *m, const struct packet 
     }
 }
 
-static void march_packet(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
-                         uint32_t x, uint32_t y)
+/* Returns the numbers of a profile at the present place of a packet. */
+SIMD void numbers_of(const struct packet *p, struct eight numbers[RECORDED])
 {
-    struct packet p;
-    if (!make_packet(m, x, y, &p))
-        return;
-    float last, step = first_step(m, &p, tile, &last);
+    numbers[VOLUME_NODE_DEPTH] = p->depth;
+    for (int i = 0; i < 3; i++) {
+        numbers[VOLUME_NODE_SMOKE + i] = p->smoke[i];
+        numbers[VOLUME_NODE_FLAME + i] = p->flame[i];
+    }
+}
+
+/* Records the profiles of a packet up to the begin of a step. */
+SIMD_ONCE void record_packet(struct record *r, const struct packet *p, float step)
+{
+    struct eight numbers[RECORDED];
+    numbers_of(p, numbers);
+    record_until(r, step, numbers);
+}
+
+/* Writes the recorded profiles of a packet that has been drawn to the end of a step. veil: NULL
+ * without haze. */
+SIMD_ONCE struct kiln_volume_profile *write_profile(const struct kiln_volume_march *m,
+                                                    struct record *r, const struct packet *p,
+                                                    const struct veil *v, float step)
+{
+    struct eight numbers[RECORDED], a_metre;
+    numbers_of(p, numbers);
+    record_end(r, step, numbers);
+    for (uint32_t i = 0; i < r->count && v; i++) {
+        struct eight *node = r->nodes[i], clear;
+        EIGHT_EACH(k)
+        clear.part[k] = vf_exp(-node[VOLUME_NODE_DEPTH].part[k]);
+        veil(v, clear, node + VOLUME_NODE_SMOKE, node + VOLUME_NODE_FLAME);
+    }
+    struct kiln_volume_profile *to = write_record(r, m->profiles);
+    EIGHT_EACH(k)
+    a_metre.part[k] = p->metre.part[k] * (1.0f / m->step);
+    eight_store(to->a_metre, a_metre);
+    return to;
+}
+
+/* Marches a packet of rays. record: NULL unless profiles are wanted. Returns the end of the last
+ * step that was drawn, or a negative number if none was. */
+SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
+                      struct packet *p, struct record *record)
+{
+    float last, step = first_step(m, p, tile, &last), drawn = -1.0f;
     const bool colored = m->field->gas->shape.colored;
     const bool detail = m->octaves > 0 && m->field->gas->shape.detailed;
-    bool drawn = false, more = true;
+    bool more = true;
     while (more && step * m->step < last) {
         struct places at;
-        find_places(m, &p, step, &at);
+        find_places(m, p, step, &at);
         if (!at.some) {
             if (at.skip >= 1e9f)
                 break;
@@ -416,21 +472,47 @@ static void march_packet(const struct kiln_volume_march *m, const struct kiln_vo
             step = next > step + 1.0f ? next : step + 1.0f;
             continue;
         }
+        if (record)
+            record_packet(record, p, step);
         struct eight values[VOLUME_CELL], tints[3];
         sample_floats(m->field->blocks, &at, values);
         if (colored)
             sample_tints(m->field, &at, tints);
         if (detail)
             add_detail(m, &at, values, colored ? tints : NULL);
-        shade(m, &p, &at, values, colored ? tints : NULL);
-        more = end_rays(m, &p, step);
-        drawn = true;
+        shade(m, p, &at, values, colored ? tints : NULL);
+        more = end_rays(m, p, step);
         step += 1.0f;
+        drawn = step;
     }
-    if (drawn && m->haze)
-        veil(m, &p);
-    if (drawn)
-        store_pixels(m, &p, x, y);
+    return drawn;
+}
+
+static void march_packet(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
+                         uint32_t x, uint32_t y)
+{
+    struct packet p;
+    struct record record;
+    record.count = 0;
+    struct veil veiled;
+    struct kiln_volume_profile **profile = NULL;
+    if (m->profiles) {
+        const uint32_t across = (m->width + VOLUME_PACKET - 1) / VOLUME_PACKET;
+        profile = m->profiles->packets + (size_t)y * across + x / VOLUME_PACKET;
+        *profile = NULL;
+    }
+    if (!make_packet(m, x, y, &p))
+        return;
+    const float end = march_rays(m, tile, &p, profile ? &record : NULL);
+    if (end < 0.0f)
+        return;
+    if (m->haze)
+        find_veil(m, &p, &veiled);
+    if (profile)
+        *profile = write_profile(m, &record, &p, m->haze ? &veiled : NULL, end);
+    if (m->haze)
+        veil(&veiled, p.clear, p.smoke, p.flame);
+    store_pixels(m, &p, x, y);
 }
 
 static void draw(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile)

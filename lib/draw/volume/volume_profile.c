@@ -1,0 +1,84 @@
+/* This file allocates the profiles of gas. There is room for the most places in all pixels, and the
+ * system gives memory to what is written alone. */
+#include "draw/volume/volume_profile.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#include "base/error.h"
+
+static uint32_t tiles_along(uint32_t pixels)
+{
+    return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
+}
+
+/* Returns the bytes of the profiles of a packet. */
+static size_t bytes_of(uint32_t count)
+{
+    const size_t floats = ((size_t)count + 15) / 16 * 16;
+    return sizeof(struct kiln_volume_profile) + floats * sizeof(float) +
+           (size_t)count * VOLUME_PACKET * VOLUME_NODE * sizeof(uint16_t);
+}
+
+static bool make_room(struct kiln_volume_domain *d, size_t packets, uint32_t tiles)
+{
+    if (d->packets)
+        return true;
+    d->packets = malloc(packets * sizeof(struct kiln_volume_profile *));
+    d->near_m = malloc(tiles * sizeof *d->near_m);
+    d->memory = aligned_alloc(64, packets * bytes_of(VOLUME_NODES));
+    return d->packets && d->near_m && d->memory;
+}
+
+bool kiln_volume_profiles_begin(struct kiln_volume_profiles *profiles, uint32_t count,
+                                uint32_t width, uint32_t height, struct kiln_error *error)
+{
+    profiles->across = tiles_along(width);
+    profiles->tiles = profiles->across * tiles_along(height);
+    profiles->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        struct kiln_volume_domain *d = &profiles->domains[i];
+        if (!make_room(d, (size_t)profiles->across * height, profiles->tiles)) {
+            kiln_volume_profiles_finish(profiles);
+            return kiln_error_no_memory(error, "drawn gas");
+        }
+        atomic_store(&d->used, 0);
+        for (uint32_t k = 0; k < profiles->tiles; k++)
+            d->near_m[k] = 1e9f;
+    }
+    return true;
+}
+
+void kiln_volume_profiles_finish(struct kiln_volume_profiles *profiles)
+{
+    for (uint32_t i = 0; i < KILN_MAX_GAS; i++) {
+        struct kiln_volume_domain *d = &profiles->domains[i];
+        free((void *)d->packets);
+        free(d->near_m);
+        free(d->memory);
+        d->packets = NULL;
+        d->near_m = NULL;
+        d->memory = NULL;
+    }
+    profiles->count = 0;
+}
+
+struct kiln_volume_profile *kiln_volume_profile_take(struct kiln_volume_domain *domain,
+                                                     uint32_t count)
+{
+    const size_t at = atomic_fetch_add(&domain->used, bytes_of(count));
+    struct kiln_volume_profile *profile =
+        (struct kiln_volume_profile *)(void *)(domain->memory + at);
+    profile->count = count;
+    return profile;
+}
+
+void kiln_volume_profiles_footprint(uint32_t count, uint32_t width, uint32_t height,
+                                    struct kiln_footprint *footprint)
+{
+    const uint64_t packets = (uint64_t)tiles_along(width) * height;
+    const uint64_t tiles = (uint64_t)tiles_along(width) * tiles_along(height);
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, count * packets,
+                       bytes_of(VOLUME_NODES) + sizeof(struct kiln_volume_profile *));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, count * tiles, sizeof(float));
+}
