@@ -144,8 +144,7 @@ const struct kiln_option_type kiln_type_of = {
     .schema = schema_of,
 };
 
-/* ---- forces of a domain of gas: a list of these items, and of baked winds ----------------------
- */
+/* ---- forces of gas: a list of these items and of baked winds --------------------------------- */
 
 static bool read_forces(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)

@@ -133,11 +133,15 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
 static void add_smoke(const struct kiln_scene *scene, struct kiln_footprint *footprint)
 {
     uint64_t slots = 0;
+    bool puffs = false;
     for (uint32_t i = 0; i < scene->system_count; i++)
-        slots += kiln_system_is_smoke(&scene->systems[i]) ? scene->systems[i].capacity : 0;
+        if (kiln_system_is_smoke(&scene->systems[i])) {
+            slots += scene->systems[i].capacity;
+            puffs = true;
+        }
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, slots, sizeof(struct kiln_puff));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, 1,
-                       kiln_smoke_shadow_bytes() +
+                       kiln_smoke_shadow_bytes(puffs) +
                            ((size_t)GRIDS * CELLS + COARSE) * sizeof(float));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, kiln_scene_shadow_lights(scene),
                        KILN_LAMP_SMOKE_MAP * sizeof(float));

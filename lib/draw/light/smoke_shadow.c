@@ -68,10 +68,10 @@ static size_t finer_floats(void)
     return 2 * level_floats(1);
 }
 
-uint64_t kiln_smoke_shadow_bytes(void)
+uint64_t kiln_smoke_shadow_bytes(bool puffs)
 {
     size_t pyramid = 0;
-    for (int level = 0; level < LEVELS; level++)
+    for (int level = 0; puffs && level < LEVELS; level++)
         pyramid += level_floats(level);
     return KILN_MAX_SMOKE_GRIDS * (MOST_PARTS * pyramid + finer_floats()) * sizeof(float);
 }
@@ -79,7 +79,7 @@ uint64_t kiln_smoke_shadow_bytes(void)
 struct kiln_smoke_shadow *kiln_smoke_shadow_create(void)
 {
     struct kiln_smoke_shadow *shadow = calloc(1, sizeof *shadow);
-    float *memory = malloc(kiln_smoke_shadow_bytes());
+    float *memory = malloc(kiln_smoke_shadow_bytes(true));
     if (!shadow || !memory) {
         free(shadow);
         free(memory);

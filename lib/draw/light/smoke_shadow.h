@@ -29,8 +29,9 @@ struct kiln_smoke_shadow;
 struct kiln_smoke_shadow *kiln_smoke_shadow_create(void);
 void kiln_smoke_shadow_destroy(struct kiln_smoke_shadow **shadow);
 
-/* Returns the bytes of the memory for filling grids. */
-uint64_t kiln_smoke_shadow_bytes(void);
+/* Returns the bytes of the memory that filling grids touches. puffs: particles throw shadows, not
+ * gas alone. */
+uint64_t kiln_smoke_shadow_bytes(bool puffs);
 
 /* Fills grids, whose direction and depth are set, with the same smoke. Returns false when there is
  * no smoke; the grids are then undefined. The number of threads does not change the result. */
