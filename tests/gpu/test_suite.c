@@ -60,8 +60,9 @@ static void a_missing_golden_is_new_and_nothing_is_written(void **state)
     assert_int_equal(access("golden", F_OK), -1);
     assert_string_equal(run.result->rerun, "kiln test spark.test.yaml");
     assert_string_equal(run.result->approve, "kiln test approve spark.test.yaml");
-    assert_string_equal(run.result->techniques,
-                        "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(
+        run.result->techniques,
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_int_equal(run.result->seed, 7);
     spark_end(&run);
 }
