@@ -14,6 +14,7 @@
 #include "support/device.h"
 #include "support/parts.h"
 #include "support/pools.h"
+#include "support/scenes.h"
 #include "support/stages.h"
 
 enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };
@@ -68,18 +69,11 @@ static void close_moment(struct moment *m)
     kiln_scene_destroy(&m->scene);
 }
 
-static const char *const SMALL[] = {"output.size=[384, 216]", "post.bloom.kind=none"};
+static const char *const SMALL[] = {"output.size=[384, 216]", "post.bloom.kind=none", NULL};
 
 static struct kiln_scene *load(const char *path)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene_params params = kiln_scene_defaults();
-    params.overrides = SMALL;
-    params.override_count = 2;
-    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    return scene;
+    return load_coarse_scene(path, SMALL);
 }
 
 static struct kiln_scene *parse(const char *text)

@@ -12,6 +12,7 @@
 #include "support/frame.h"
 #include "support/parts.h"
 #include "support/pools.h"
+#include "support/scenes.h"
 #include "support/stages.h"
 #include "support/true_billboards.h"
 
@@ -196,14 +197,14 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
                          const struct text *text)
 {
     struct kiln_error error = {0};
-    static const char *const overrides[] = {"output.size=[384, 216]", "post.bloom.kind=none"};
+    static const char *const overrides[] = {"output.size=[384, 216]", "post.bloom.kind=none", NULL};
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = 2;
     params.asset_root = path ? NULL : KILN_SOURCE_DIR;
     *s = (struct subject){.name = path ? strrchr(path, '/') + 1 : text->name,
                           .threads = kiln_threads_create(2)};
-    s->scene = path ? kiln_scene_load(path, &params, &error)
+    s->scene = path ? load_coarse_scene(path, overrides)
                     : kiln_scene_parse(text->yaml, strlen(text->yaml), text->name, &params, &error);
     if (!s->scene) {
         fail_msg("%s", error.message);

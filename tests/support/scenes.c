@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/scene.h"
 #include "support/cmocka.h"
 
 struct kiln_scene *try_scene(const char *text, const char *const *overrides,
@@ -30,6 +31,27 @@ struct kiln_scene *load_scene_file(const char *path)
 {
     struct kiln_error error = {0};
     struct kiln_scene *scene = kiln_scene_load(path, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+struct kiln_scene *load_coarse_scene(const char *path, const char *const *overrides)
+{
+    struct kiln_error error = {0};
+    const char *list[5] = {NULL};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    params.overrides = list;
+    while (overrides[params.override_count] && params.override_count < 4) {
+        list[params.override_count] = overrides[params.override_count];
+        params.override_count++;
+    }
+    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
+    if (scene && scene->gas_count > 0) {
+        list[params.override_count++] = "gas.*.cells=32";
+        kiln_scene_destroy(&scene);
+        scene = kiln_scene_load(path, &params, &error);
+    }
     if (!scene)
         fail_msg("%s", error.message);
     return scene;

@@ -16,6 +16,10 @@ struct kiln_scene *try_scene(const char *text, const char *const *overrides,
 struct kiln_scene *load_scene(const char *text, const char *const *overrides);
 struct kiln_scene *load_scene_file(const char *path);
 
+/* Returns the scene of a file with the changes of a list that ends with NULL, at most 4, and with
+ * gas in coarse cells, so that its steps take no time to speak of. An error fails the test. */
+struct kiln_scene *load_coarse_scene(const char *path, const char *const *overrides);
+
 /* Returns the scene of a file of tests/motion, such as "rest", which the caller destroys. override:
  * a "KEY=VALUE", or NULL for none. An error fails the test. */
 struct kiln_scene *load_fixture(const char *name, const char *override);

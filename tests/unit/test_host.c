@@ -15,19 +15,13 @@
 #include "support/cmocka.h"
 #include "support/errors.h"
 #include "support/parts.h"
+#include "support/scenes.h"
 
-static const char *const SMALL[] = {"output.size=[96, 54]"};
+static const char *const SMALL[] = {"output.size=[96, 54]", NULL};
 
 static struct kiln_scene *load(const char *path)
 {
-    struct kiln_error error = {0};
-    struct kiln_scene_params params = kiln_scene_defaults();
-    params.overrides = SMALL;
-    params.override_count = 1;
-    struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
-    if (!scene)
-        fail_msg("%s", error.message);
-    return scene;
+    return load_coarse_scene(path, SMALL);
 }
 
 /* Renders a frame into a file, if one is named; the techniques become `techniques`. */
