@@ -279,7 +279,7 @@ TABLE(gas_look) = {
           "Part of the light of flames that goes to the bloom."),
     VALUE(LOOK, "glow", glow, KILN_PLAIN, 0, 1000, TIME(92), "1",
           "Factor on the light of flames in their own smoke. 0: they do not light it."),
-    VALUE(LOOK, "light", light, KILN_PLAIN, 0, 1000, TIME(93), "1",
+    VALUE(LOOK, "light", light, KILN_PLAIN, 0, 1000, TIME(93), "5",
           "Factor on the light of flames on floor, objects and particles. 0: they light nothing."),
     BOOLEAN(LOOK, "lights", lights, "true", "Sun, sky and lamps light the smoke."),
     BOOLEAN(LOOK, "shadow", shadow, "true", "Gas throws shadows on floor, objects and particles."),

@@ -16,7 +16,7 @@ $ kiln new below
 = 2
 $ kiln new - --template smoke | kiln check -q -
 $ kiln new x.yaml --template snwo
-2|kiln: new: --template: there is no template 'snwo' (did you mean 'snow'?); there are fire, fountain, smoke, snow
+2|kiln: new: --template: there is no template 'snwo' (did you mean 'snow'?); there are campfire, fire, fireball, fog, fountain, plume, smoke, snow, steam
 = 2
 $ kiln new
 2|kiln: new: needs SCENE
@@ -29,10 +29,16 @@ $ ls
 1|effect.yaml
 1|scenes
 
-Every template renders as it is, and its particles show.
+Every template renders as it is, and its particles show, or its gas, which is coarse here.
 
-$ for name in $(kiln help templates | sed -nE 's/^  ([a-z]+) .*/\1/p'); do kiln new $name.yaml -qt $name && for enabled in true false; do kiln render $name.yaml -qo $name.$enabled.png --size 96x54 --frames 0 --set "systems.*.enabled=$enabled"; done; cmp -s $name.true.png $name.false.png || echo $name; done
+$ for name in $(kiln help templates | sed -nE 's/^  ([a-z]+) .*/\1/p'); do kiln new $name.yaml -qt $name && what=systems && coarse= && if grep -q "^gas:" $name.yaml; then what=gas; coarse="--set gas.*.cells=32 --set gas.*.detail=1"; fi; for enabled in true false; do kiln render $name.yaml -qo $name.$enabled.png --size 96x54 --frames 2 $coarse --set "$what.*.enabled=$enabled"; done; cmp -s $name.true.png $name.false.png || echo $name; done
+1|campfire
 1|fire
+1|fireball
+1|fog
 1|fountain
+1|plume
 1|smoke
 1|snow
+1|steam
+2|kiln: warning: campfire.yaml:23:26: systems.sparks.forces.0.wind.gas: gas.fire is not enabled, so this wind does nothing
