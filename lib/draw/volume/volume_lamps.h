@@ -37,7 +37,7 @@ KILN_SIMD_DECLARE(kiln_volume_lamp_reach, kiln_volume_lamp_reach);
 static inline void kiln_volume_spread(const float parts[VOLUME_PLACES], int y, int z,
                                       float row[GAS_BRICK])
 {
-    const float *corner = parts + (z / 2 * VOLUME_SPARSE + y / 2) * VOLUME_SPARSE;
+    const float *corner = parts + ((ptrdiff_t)(z / 2) * VOLUME_SPARSE + y / 2) * VOLUME_SPARSE;
     const int up = y & 1 ? VOLUME_SPARSE : 0, far = z & 1 ? VOLUME_SPARSE * VOLUME_SPARSE : 0;
     float places[VOLUME_SPARSE];
     for (int i = 0; i < VOLUME_SPARSE; i++)

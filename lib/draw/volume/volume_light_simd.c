@@ -113,7 +113,7 @@ static void add_lamp(const struct kiln_volume_frame *frame, struct kiln_gas_plac
         }
         float lit[8];
         eight_store(lit, part);
-        for (int x = 0; x < 8; x++) {
+        for (ptrdiff_t x = 0; x < 8; x++) {
             row[x * VOLUME_CELL] += lamp->color.x * lit[x];
             row[x * VOLUME_CELL + 1] += lamp->color.y * lit[x];
             row[x * VOLUME_CELL + 2] += lamp->color.z * lit[x];
