@@ -206,6 +206,15 @@ SIMD void sample_floats(const float *blocks, const struct places *at,
     eight_columns(cells, values);
 }
 
+/* Returns whether sampled cells have neither smoke nor flames, so that they change no ray. */
+SIMD bool is_clear(const struct eight values[VOLUME_CELL])
+{
+    vi some = vi_all(0);
+    EIGHT_EACH(k)
+    some |= (values[VOLUME_SMOKE].part[k] > 0.0f) | (values[VOLUME_FLAME].part[k] > 0.0f);
+    return !any(some);
+}
+
 /* Samples what the smoke of coloured gas scatters: rgb. */
 SIMD_ONCE void sample_tints(const struct kiln_volume_field *field, const struct places *at,
                             struct eight tints[3])
@@ -476,6 +485,11 @@ SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volum
             record_packet(record, p, step);
         struct eight values[VOLUME_CELL], tints[3];
         sample_floats(m->field->blocks, &at, values);
+        drawn = step + 1.0f;
+        if (is_clear(values)) { /* a step that changes no bit */
+            step += 1.0f;
+            continue;
+        }
         if (colored)
             sample_tints(m->field, &at, tints);
         if (detail)
@@ -483,7 +497,6 @@ SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volum
         shade(m, p, &at, values, colored ? tints : NULL);
         more = end_rays(m, p, step);
         step += 1.0f;
-        drawn = step;
     }
     return drawn;
 }
