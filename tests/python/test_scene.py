@@ -68,7 +68,7 @@ def test_values_that_are_no_text_are_refused():
 
 
 def test_meshes_are_read_by_the_decoder_of_the_library():
-    assert kiln.load(f"{TREE}/scenes/pot.yaml").info.systems > 0
+    assert kiln.load(f"{TREE}/scenes/campfire.yaml").info.systems > 0
 
 
 def test_devices():

@@ -102,7 +102,7 @@ static void any_thread_may_cancel(void **state)
 
     assert_null(load(cancel, &error)); /* its pictures are decoded, which asks */
     expect_error(&error, KILN_INTERRUPTED,
-                 "%s:22:18: backdrop.floor.image: 'textures/soil.jpg': stopped while reading the "
+                 "%s:20:18: backdrop.floor.image: 'textures/soil.jpg': stopped while reading the "
                  "files of a scene",
                  SCENE);
     kiln_scene_destroy(&scene);
