@@ -7,6 +7,9 @@
 
 #include "base/error.h"
 
+/* Gas is expected in one of so many packets, which then have so many places. */
+enum { EXPECTED_PART = 3, EXPECTED_PLACES = 20 };
+
 static uint32_t tiles_along(uint32_t pixels)
 {
     return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
@@ -79,6 +82,8 @@ void kiln_volume_profiles_footprint(uint32_t count, uint32_t width, uint32_t hei
     const uint64_t packets = (uint64_t)tiles_along(width) * height;
     const uint64_t tiles = (uint64_t)tiles_along(width) * tiles_along(height);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, count * packets,
-                       bytes_of(VOLUME_NODES) + sizeof(struct kiln_volume_profile *));
+                       sizeof(struct kiln_volume_profile *));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, count * packets / EXPECTED_PART,
+                       bytes_of(EXPECTED_PLACES));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, count * tiles, sizeof(float));
 }

@@ -84,7 +84,8 @@ bool kiln_volume_profiles_begin(struct kiln_volume_profiles *profiles, uint32_t 
 
 void kiln_volume_profiles_finish(struct kiln_volume_profiles *profiles);
 
-/* Adds the memory of the profiles of some domains where gas fills the picture. */
+/* Adds the memory that the profiles of some domains are expected to take: gas is seen in a third of
+ * the picture. */
 void kiln_volume_profiles_footprint(uint32_t count, uint32_t width, uint32_t height,
                                     struct kiln_footprint *footprint);
 
