@@ -15,13 +15,13 @@ enum { WIDTH = 96, HEIGHT = 54, THREADS = 3 };
 
 #define SCENE KILN_SOURCE_DIR "/scenes/campfire.yaml"
 
-static const char *const SMALL[] = {"output.size=[96, 54]"};
+static const char *const SMALL[] = {"output.size=[96, 54]", "gas.fire.cells=32"};
 
 static struct kiln_scene *load(const struct kiln_cancel *cancel, struct kiln_error *error)
 {
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = SMALL;
-    params.override_count = 1;
+    params.override_count = sizeof SMALL / sizeof *SMALL;
     params.cancel = cancel;
     return kiln_scene_load(SCENE, &params, error);
 }
