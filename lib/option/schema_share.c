@@ -13,7 +13,7 @@
 /* A schema that is shorter stays in its places: a reference would take about as much. */
 enum { LEAST_LENGTH = 100, MOST_DEPTH = 128, MOST_NAME = 40 };
 
-/* An object of the text, in the order in which objects begin. */
+/* Describes an object of the text. Objects are numbered in the order in which they begin. */
 struct object {
     size_t begin, end;     /* of its text */
     uint32_t parent, next; /* next: of the first object behind it and all within it */

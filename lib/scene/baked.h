@@ -22,7 +22,8 @@ static inline uint32_t kiln_force_owners(const struct kiln_scene *scene)
     return scene->system_count + scene->gas_count;
 }
 
-/* Return the same of a domain of gas: "gas.fire.forces.2.curl". */
+/* Return a force of a domain of gas by its number, and write the path of one, such as
+ * "gas.fire.forces.2.curl". */
 const struct kiln_force *kiln_gas_force(const struct kiln_gas_domain *domain, uint32_t i);
 void kiln_gas_force_path(const struct kiln_gas_domain *domain, uint32_t i, char *path, size_t size);
 

@@ -78,8 +78,8 @@
 #define GAS_NOISE_FLOATS 375
 #define GAS_STIR_FLOATS  1375
 
-/* What is found of a column of a brick's cells of one x: GAS_FOUND_*, smoke after it moved, smoke
- * at the end, and smoke times its expansion. */
+/* A column of a brick, its cells of one x, has four words of results: a sum of these flags, the
+ * smoke after it moved, the smoke at the end, and the smoke times its expansion. */
 #define GAS_FOUND_GAS   1u
 #define GAS_FOUND_WRONG 2u
 

@@ -13,14 +13,14 @@ enum {
     KILN_GAS_LEVELS = 5 /* of cells, each twice as large as those of the level before */
 };
 
-/* What the flames of a large cell emit. */
+/* Holds the light that the flames of a large cell emit. */
 struct kiln_gas_glow {
     float rgb[3]; /* radiance a metre, without intensity, summed over the cells of gas */
     float at[3];  /* sum of their places times the sum of their rgb: from the large cell's lowest
                    * corner, in cells of gas */
 };
 
-/* Sums over flames, in cells of gas of the window. */
+/* Holds sums over flames, in cells of gas of the window. */
 struct kiln_gas_sums {
     double color[3];
     double energy; /* sum of the channels of color; the weight of the members below */
@@ -64,8 +64,8 @@ void kiln_gas_cells_finish(struct kiln_gas_cells *cells);
 /* Adds the memory of the cells. */
 void kiln_gas_cells_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
 
-/* How a grid of the world reads the cells of a block at a level: the place of a point of the grid,
- * in cells of the level from the middle of the first one, is a sum of multiples of these. */
+/* Says how a grid of the world reads the cells of a block at a level: the place of a point of the
+ * grid, in cells of the level from the middle of the first one, is a sum of multiples of these. */
 struct kiln_gas_reader {
     const float *extinction;
     struct kiln_gas_place cells;

@@ -104,7 +104,7 @@ static void add_sums(struct kiln_gas_sums *to, const struct kiln_gas_sums *from)
     to->energy += from->energy;
 }
 
-/* A large cell as a light. */
+/* Holds a large cell as a light. */
 struct ember {
     float rgb[3], energy, at[3];
 };

@@ -11,7 +11,7 @@ enum {
     VOLUME_PLACES = 128 /* floats for VOLUME_SPARSE^3 places, rows along x: whole vectors */
 };
 
-/* A lamp, and what may be in its way. */
+/* Holds a lamp, and what may be in its way. */
 struct kiln_volume_lamp {
     const struct kiln_draw_light *light;
     struct kiln_shape_set casters;

@@ -356,7 +356,7 @@ SIMD bool end_rays(const struct kiln_volume_march *m, struct packet *p, float st
     return some;
 }
 
-/* The haze before the gas of rays. */
+/* Holds the haze before the gas of rays. */
 struct veil {
     struct eight clear; /* the part of the gas's light that comes through */
     struct vf3 color[EIGHT_PARTS];

@@ -29,7 +29,7 @@ enum {
 };
 #define VOLUME_DEPTH_UNIT (1.0f / 8192.0f)
 
-/* What comes through gas counts as nothing below this part. */
+/* Gas that lets less than this part of the light through hides all that is behind it. */
 #define VOLUME_OPAQUE_BELOW 0.002f
 
 /* Holds the profiles of a packet of pixels in a domain, whose places have the same distances from

@@ -386,12 +386,6 @@ SIMD void react_row(const struct gas_pass *pass, struct gas_workspace *space,
     }
 }
 
-static struct kiln_gas_place in_domain(const struct kiln_gas *gas, gas_brick_place at)
-{
-    return (struct kiln_gas_place){gas->at.x + at.x * GAS_BRICK, gas->at.y + at.y * GAS_BRICK,
-                                   gas->at.z + at.z * GAS_BRICK};
-}
-
 static struct gas_found react(const struct gas_pass *pass, gas_brick_place at,
                               struct gas_workspace *space)
 {
@@ -411,7 +405,7 @@ static struct gas_found react(const struct gas_pass *pass, gas_brick_place at,
     if (confined)
         spins(space);
     if (pass->stir.strength > 0.0f)
-        find_noise(&pass->stir, in_domain(gas, at), space);
+        find_noise(&pass->stir, gas_first_cell(gas, at), space);
     const struct limits limits = limits_of(pass->step);
     struct sums sums = {.wrong = vf_all(0.0f)};
     for (int32_t z = 0; z < GAS_BRICK; z++)

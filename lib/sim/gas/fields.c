@@ -418,7 +418,7 @@ static struct kiln_gas_kernel params_of(const struct gas_fields *fields, const s
     const struct kiln_gas *gas = fields->gas;
     const struct gas_pass *pass = job->pass;
     const struct gas_lattice *forces = &pass->forces;
-    struct kiln_gas_kernel params = {
+    return (struct kiln_gas_kernel){
         .step = *pass->step,
         .turn = FLOAT4(forces->twice_spin[0], forces->twice_spin[1], forces->twice_spin[2],
                        pass->stir.strength),
@@ -440,10 +440,8 @@ static struct kiln_gas_kernel params_of(const struct gas_fields *fields, const s
         .lattice_plane = forces->plane,
         .octaves = pass->stir.octaves,
         .seed = pass->stir.seed,
+        .closed = gas_closed_bits(pass),
     };
-    for (uint32_t i = 0; i < 6; i++)
-        params.closed |= pass->closed[i] ? 1u << i : 0;
-    return params;
 }
 
 bool gas_fields_begin(struct gas_fields *fields, const struct gas_job *job)

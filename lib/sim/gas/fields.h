@@ -7,7 +7,8 @@
 #include "sim/gas/kernels.h"
 #include "sim/gas/solver.h"
 
-/* What is kept, and its label. Those up to F have a part for each cell, or face, of the window. */
+/* Lists the fields that are kept in GL, each with its label. Those up to F have a part for each
+ * cell, or face, of the window. */
 #define GAS_FIELDS(X)                                                                              \
     X(FACES, "faces of gas")                                                                       \
     X(CENTRES, "velocities of gas")                                                                \
@@ -41,7 +42,7 @@ enum gas_field {
         GAS_FIELD_COUNT,
 };
 
-/* A list of bricks in GAS_BIND_BRICKS. */
+/* Says where a list of bricks lies in GAS_BIND_BRICKS. */
 struct gas_listed {
     uint32_t first, count;
 };

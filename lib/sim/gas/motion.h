@@ -4,12 +4,12 @@
 
 #include "sim/gas/frames.h"
 
-/* How a domain moves with its node, m/s and rad/s in its own axes and metres. */
+/* Says how a domain moves with its node, m/s and rad/s in its own axes and metres. */
 struct gas_motion {
     double velocity[3], spin[3];
 };
 
-/* Returns how a domain moves, m/s and rad/s in its own axes and metres. */
+/* Returns how a domain moves whose frame is this one. */
 static inline struct gas_motion gas_motion_of(const struct kiln_node_frame *frame)
 {
     struct gas_motion motion;

@@ -88,7 +88,7 @@ void gas_levels_coarsen(const struct gas_levels *levels, int32_t begin, int32_t 
 size_t gas_level_floats(const struct gas_level *level);
 size_t gas_level_first(const struct gas_level *level);
 
-/* What a V-cycle does, one after another. */
+/* Names the parts of a V-cycle. */
 enum gas_relaxation_kind {
     GAS_RELAX,    /* the cells of a colour of a level */
     GAS_BEGIN,    /* those of colour 0, where p is zero everywhere, whatever p holds */

@@ -79,7 +79,7 @@ static bool is_same(struct kiln_gas_place a, struct kiln_gas_place b)
 
 /* ---- the velocity of a face ------------------------------------------------------------------ */
 
-/* What new air is computed from. */
+/* Holds what new air is computed from. */
 struct filling {
     struct kiln_gas *gas;
     struct kept kept;
@@ -110,13 +110,16 @@ static float4 forces_at(const struct gas_lattice *forces, struct kiln_gas_place 
     return forces->points[z * forces->plane + y * forces->row + x];
 }
 
-/* Returns how much alike forces are on air of a speed, 0 to 1: their product by the square of those
- * on the old air. The pull counts by the acceleration that it is at this speed. */
-static float likeness(float4 old, float4 new, float speed)
+/* Returns how much alike forces are on air of a speed, 0 to 1: the product of the forces on the old
+ * air and on the new by the square of the former. The pull counts by the acceleration that it is at
+ * this speed. */
+static float likeness(float4 before, float4 here, float speed)
 {
     const float square = speed * speed;
-    const float both = ((old.x * new.x + old.y *new.y) + old.z * new.z) + (old.w * new.w) * square;
-    const float own = ((old.x * old.x + old.y * old.y) + old.z * old.z) + (old.w * old.w) * square;
+    const float both = ((before.x * here.x + before.y * here.y) + before.z * here.z) +
+                       (before.w * here.w) * square;
+    const float own = ((before.x * before.x + before.y * before.y) + before.z * before.z) +
+                      (before.w * before.w) * square;
     return own > 0.0f ? exact_clamp(exact_div(both, own), 0.0f, 1.0f) : 0.0f;
 }
 

@@ -4,7 +4,7 @@
 
 #include "sim/gas/pass.h"
 
-/* How air that is at rest in the world moves in a domain: its velocity at the origin of the
+/* Says how air that is at rest in the world moves in a domain: its velocity at the origin of the
  * domain's frame, m/s, and how it turns about it, rad/s. */
 struct gas_rest {
     float velocity[3], spin[3];

@@ -55,8 +55,24 @@ struct gas_pass {
     struct gas_stir stir;
 };
 
+/* Returns the closed sides of the window as bits, side i as 1 << i. */
+static inline uint32_t gas_closed_bits(const struct gas_pass *pass)
+{
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < 6; i++)
+        bits |= (uint32_t)pass->closed[i] << i;
+    return bits;
+}
+
 /* Holds a place of a brick in the window. */
 typedef struct kiln_gas_place gas_brick_place;
+
+/* Returns the first cell of a brick of the window in the domain. */
+static inline struct kiln_gas_place gas_first_cell(const struct kiln_gas *gas, gas_brick_place at)
+{
+    return (struct kiln_gas_place){gas->at.x + at.x * GAS_BRICK, gas->at.y + at.y * GAS_BRICK,
+                                   gas->at.z + at.z * GAS_BRICK};
+}
 
 /* Returns the place of a row of a brick in arrays of a float a cell of the brick. */
 static inline ptrdiff_t gas_row_of_brick(int32_t y, int32_t z)

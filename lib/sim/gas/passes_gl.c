@@ -173,7 +173,7 @@ static enum gas_failure react(struct gas_job *job)
     return done(job, ok && writes(job, GAS_BIND_NOW, GAS_FIELD_NOW) && find(job, 0));
 }
 
-/* What a source reaches: bricks, and how far their cells lie in it. */
+/* Holds the bricks that a source reaches, and how far their cells lie in it. */
 struct reached {
     struct gas_job *job;
     uint32_t source;
@@ -192,14 +192,6 @@ static void reach(void *context, size_t begin, size_t end, uint32_t worker)
         r->any[i] =
             hooks->reach(hooks->context, job->pass, r->source,
                          job->solver->active.brick[r->bricks[i]], r->cells + i * GAS_BRICK_CELLS);
-}
-
-static bool is_in(const struct gas_region *region, const struct kiln_gas *gas, gas_brick_place at)
-{
-    const struct kiln_gas_place b = {gas->at.x / GAS_BRICK + at.x, gas->at.y / GAS_BRICK + at.y,
-                                     gas->at.z / GAS_BRICK + at.z};
-    return b.x >= region->low.x && b.x < region->high.x && b.y >= region->low.y &&
-           b.y < region->high.y && b.z >= region->low.z && b.z < region->high.z;
 }
 
 /* Sends what a source reaches, and lists its bricks. */
@@ -243,7 +235,7 @@ static bool add_source(struct gas_job *job, uint32_t number, const struct gas_br
     struct gas_listed list = {.count = 0};
     r.bricks = malloc(s->active.count * sizeof *r.bricks);
     for (uint32_t i = 0; r.bricks && i < s->active.count; i++)
-        if (is_in(&b->region, s->gas, s->active.brick[i]))
+        if (gas_region_has(&b->region, s->gas, s->active.brick[i]))
             r.bricks[count++] = i;
     r.cells = count > 0 ? malloc((size_t)count * GAS_BRICK_CELLS * sizeof *r.cells) : NULL;
     r.any = count > 0 ? malloc(count * sizeof *r.any) : NULL;

@@ -4,7 +4,7 @@
 
 #include "sim/gas/passes_gl.h"
 
-/* Runs V-cycles until a part of one fails. */
+/* Holds what V-cycles run with. After a part that fails, no more run. */
 struct relaxing {
     struct gas_job *job;
     bool walled, ok;
@@ -141,10 +141,10 @@ static bool bind(struct gas_job *job)
 
 static bool cycle(struct gas_job *job)
 {
-    struct relaxing r = {.job = job, .walled = job->pass->walls != NULL, .ok = true};
-    for (uint32_t i = 0; i < 6; i++)
-        r.closed |= job->pass->closed[i] ? 1u << i : 0;
-    r.ok = bind(job);
+    struct relaxing r = {.job = job,
+                         .walled = job->pass->walls != NULL,
+                         .ok = bind(job),
+                         .closed = gas_closed_bits(job->pass)};
     if (r.ok)
         gas_levels_cycle(&job->solver->levels, &(struct gas_relaxer){&r, run}, job->cycles);
     return r.ok;

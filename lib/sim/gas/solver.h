@@ -17,12 +17,22 @@ struct gas_list {
     uint32_t count;
 };
 
-/* Bricks of the domain from `low` to before `high` on each axis. */
+/* Holds bricks of the domain from `low` to before `high` on each axis. */
 struct gas_region {
     struct kiln_gas_place low, high;
 };
 
-/* What a source brings to a cell that lies wholly in it. */
+/* Returns whether a region has a brick of the window. */
+static inline bool gas_region_has(const struct gas_region *region, const struct kiln_gas *gas,
+                                  gas_brick_place at)
+{
+    const struct kiln_gas_place b = {gas->at.x / GAS_BRICK + at.x, gas->at.y / GAS_BRICK + at.y,
+                                     gas->at.z / GAS_BRICK + at.z};
+    return b.x >= region->low.x && b.x < region->high.x && b.y >= region->low.y &&
+           b.y < region->high.y && b.z >= region->low.z && b.z < region->high.z;
+}
+
+/* Describes a source: the values that it brings to a cell that lies wholly in it. */
 struct gas_brought {
     struct gas_region region; /* bricks of the domain that it reaches */
     float fuel, temperature, smoke;

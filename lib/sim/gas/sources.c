@@ -378,19 +378,6 @@ static void weaken(const struct gas_source *source, const struct gas_advect *ker
     }
 }
 
-/* Returns the first cell of a brick of the window in the domain. */
-static struct kiln_gas_place first_cell(const struct kiln_gas *gas, gas_brick_place at)
-{
-    return (struct kiln_gas_place){gas->at.x + at.x * GAS_BRICK, gas->at.y + at.y * GAS_BRICK,
-                                   gas->at.z + at.z * GAS_BRICK};
-}
-
-static bool reaches(const struct gas_region *region, struct kiln_gas_place brick)
-{
-    return brick.x >= region->low.x && brick.x < region->high.x && brick.y >= region->low.y &&
-           brick.y < region->high.y && brick.z >= region->low.z && brick.z < region->high.z;
-}
-
 /* Finds the cells of a brick of the window that a source reaches in the end. */
 static void find_cells(const struct gas_source *source, const struct gas_pass *pass,
                        const struct gas_advect *kernels, gas_brick_place at,
@@ -398,7 +385,7 @@ static void find_cells(const struct gas_source *source, const struct gas_pass *p
 {
     const size_t index = kiln_gas_brick_index(pass->gas, at.x, at.y, at.z);
     const struct gas_wall *wall = pass->walls ? pass->walls[index] : NULL;
-    find_reached(source, &pass->gas->shape, first_cell(pass->gas, at), wall, reached);
+    find_reached(source, &pass->gas->shape, gas_first_cell(pass->gas, at), wall, reached);
     if (source->noise > 0.0f)
         weaken(source, kernels, reached);
 }
@@ -409,7 +396,7 @@ static void add_source(const struct gas_source *source, const struct gas_pass *p
     struct kiln_gas *gas = pass->gas;
     const struct kiln_gas_shape *shape = &gas->shape;
     struct kiln_gas_brick *brick = &gas->brick[kiln_gas_brick_index(gas, at.x, at.y, at.z)];
-    const size_t number = gas_brick_number(shape, first_cell(gas, at));
+    const size_t number = gas_brick_number(shape, gas_first_cell(gas, at));
     struct reached reached;
     find_cells(source, pass, kernels, at, &reached);
     for (uint32_t k = 0; k < reached.points.count; k++) {
@@ -437,12 +424,9 @@ static void add_source(const struct gas_source *source, const struct gas_pass *p
 bool gas_sources_add(const struct gas_sources *sources, const struct gas_pass *pass,
                      const struct gas_advect *kernels, gas_brick_place at)
 {
-    const struct kiln_gas *gas = pass->gas;
-    const struct kiln_gas_place brick = {gas->at.x / GAS_BRICK + at.x, gas->at.y / GAS_BRICK + at.y,
-                                         gas->at.z / GAS_BRICK + at.z};
     bool any = false;
     for (uint32_t i = 0; i < sources->count; i++)
-        if (reaches(&sources->source[i].region, brick))
+        if (gas_region_has(&sources->source[i].region, pass->gas, at))
             add_source(&sources->source[i], pass, kernels, at, &any);
     return any;
 }
@@ -471,7 +455,7 @@ bool gas_sources_reach(const struct gas_sources *sources, const struct gas_pass 
 {
     const struct gas_source *source = &sources->source[number];
     const struct kiln_gas_shape *shape = &pass->gas->shape;
-    const size_t brick = gas_brick_number(shape, first_cell(pass->gas, at));
+    const size_t brick = gas_brick_number(shape, gas_first_cell(pass->gas, at));
     bool any = false;
     struct reached reached;
     find_cells(source, pass, kernels, at, &reached);

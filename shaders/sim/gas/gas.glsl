@@ -194,12 +194,12 @@ bool is_active(uint brick)
 
 /* ---- cells ----------------------------------------------------------------------------------- */
 
-/* What a cell has: its velocity, and what it carries. */
+/* Holds the velocity of a cell, and what it carries. */
 struct joined {
     vec4 velocity, carried;
 };
 
-/* A cell's velocity, and its differences over two cells along each axis. */
+/* Holds the velocity of a cell, and its differences over two cells along each axis. */
 struct flow {
     vec3 u, by_x, by_y, by_z;
 };
@@ -211,7 +211,7 @@ vec3 velocity_at(ivec3 cell)
 }
 
 #ifdef GAS_USES_NOW
-/* What idle bricks carry is always zero. */
+/* Returns a cell of the window, or the nearest one to a cell beyond it. Idle bricks carry zeros. */
 joined joined_at(ivec3 cell)
 {
     uint place = place_of(nearest(cell));
