@@ -15,7 +15,6 @@
 #include "support/simulation.h"
 
 #define FILE_NAME "a.kilnstate"
-#define MOTION    "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"
 
 /* Smoke that rises from a disc and leaves the domain at its top, whose window grows with it. */
 static const char SMOKE[] = "kiln: 1\nsimulation: {rate: 30}\n"
@@ -204,24 +203,11 @@ static void particles_ride_the_same_gas(void **state)
     kiln_scene_destroy(&scene);
 }
 
-static void save(struct simulation *run)
-{
-    struct kiln_state state = {.pool = &run->pool};
-    struct kiln_error error = {0};
-    memcpy(state.info.motion, MOTION, sizeof state.info.motion);
-    state.info.step = run->step;
-    state.info.hash = simulation_hash(run, &state.info.alive);
-    if (!kiln_state_write(&state, FILE_NAME, true, run->threads, &error))
-        fail_msg("%s", error.message);
-}
-
 static void take_up(struct simulation *run)
 {
-    struct kiln_state state = {.pool = &run->pool};
     struct kiln_error error = {0};
-    if (!kiln_state_read(&state, FILE_NAME, run->threads, &error))
+    if (!simulation_take_up(run, FILE_NAME, &error))
         fail_msg("%s", error.message);
-    run->step = state.info.step;
 }
 
 /* A run in GL goes on from a state of the host, also when it had other gas before, and a run of the
@@ -235,14 +221,14 @@ static void states_cross(void **state)
     simulation_start_gas(&gl, scene, test_device(), KILN_SIMULATE_CPU, KILN_GAS_GL, 2);
     simulation_run(&host, 11); /* ways begin anew in the next step */
     simulation_run(&gl, 5);
-    save(&host);
+    simulation_save(&host, FILE_NAME);
     take_up(&gl);
     expect_same(&host, &gl);
     simulation_run(&host, 4);
     simulation_run(&gl, 4);
     expect_same(&host, &gl);
     simulation_run(&gl, 3);
-    save(&gl);
+    simulation_save(&gl, FILE_NAME);
     take_up(&host);
     simulation_run(&host, 2);
     simulation_run(&gl, 2);
@@ -265,7 +251,7 @@ static void flat_gas_is_the_same(void **state)
     compare_runs(FLAT, 2);
 }
 
-/* What a device cannot run is refused. */
+/* A technique that a device cannot run is refused. */
 static void devices_are_checked(void **state)
 {
     (void)state;
@@ -305,7 +291,7 @@ static void wrong_numbers_are_found(void **state)
     simulation_start(&host, scene, NULL, 1);
     simulation_start_gas(&gl, scene, test_device(), KILN_SIMULATE_CPU, KILN_GAS_GL, 1);
     simulation_run(&host, 4);
-    save(&host);
+    simulation_save(&host, FILE_NAME);
     step_wrong(&host, &errors[0]);
     step_wrong(&gl, &errors[1]);
     for (int i = 0; i < 2; i++)
@@ -353,7 +339,7 @@ static struct kiln_state_hash draw(const struct kiln_scene *scene, const char *t
     return stats.state;
 }
 
-/* What draws gas, and what it lights, reads it back from GL in each frame. */
+/* The stages that draw gas, and what it lights, read it back from GL in each frame. */
 static void pictures_are_the_same(void **state)
 {
     (void)state;
@@ -374,15 +360,6 @@ static void pictures_are_the_same(void **state)
     kiln_scene_destroy(&scene);
 }
 
-static int leave_folder(void **state)
-{
-    const int failed = test_device_is_clean(state);
-    return test_leave_folder(state) || failed;
-}
-
-#define test_in_folder(function)                                                                   \
-    cmocka_unit_test_setup_teardown(function, test_enter_folder, leave_folder)
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -391,11 +368,11 @@ int main(void)
         test_on_device(gas_beside_solids_is_the_same),
         test_on_device(rooms_are_the_same),
         test_on_device(particles_ride_the_same_gas),
-        test_in_folder(states_cross),
+        test_in_folder_on_device(states_cross),
         test_on_device(flat_gas_is_the_same),
         test_on_device(pictures_are_the_same),
         test_on_device(devices_are_checked),
-        test_in_folder(wrong_numbers_are_found),
+        test_in_folder_on_device(wrong_numbers_are_found),
     };
     return cmocka_run_group_tests_name("gas in GL", tests, test_device_open_alone,
                                        test_device_close);

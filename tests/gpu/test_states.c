@@ -165,21 +165,12 @@ static void spread_sorts_continue_from_states(void **state)
     kiln_scene_destroy(&scene);
 }
 
-static int leave_folder(void **state)
-{
-    const int failed = test_device_is_clean(state);
-    return test_leave_folder(state) || failed;
-}
-
-#define test_in_folder(function)                                                                   \
-    cmocka_unit_test_setup_teardown(function, test_enter_folder, leave_folder)
-
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_in_folder(states_serve_every_technique),
-        test_in_folder(states_serve_other_looks),
-        test_in_folder(spread_sorts_continue_from_states),
+        test_in_folder_on_device(states_serve_every_technique),
+        test_in_folder_on_device(states_serve_other_looks),
+        test_in_folder_on_device(spread_sorts_continue_from_states),
     };
     return cmocka_run_group_tests_name("states", tests, test_device_open_alone, test_device_close);
 }

@@ -80,3 +80,9 @@ int test_device_is_clean(void **state)
     fprintf(stderr, "%s\n", error.message);
     return -1;
 }
+
+int test_device_leave_folder(void **state)
+{
+    const int failed = test_device_is_clean(state);
+    return test_leave_folder(state) || failed;
+}

@@ -5,6 +5,7 @@
 
 #include "gpu/device.h"
 #include "support/cmocka.h"
+#include "support/folders.h"
 
 /* A log callback that prints only warnings, to stderr. */
 void test_log(void *user, enum kiln_log_level level, const char *line);
@@ -39,5 +40,12 @@ int test_device_is_clean(void **state);
 /* Makes an entry of a cmocka group whose test must leave no GL error behind. The group's set-up
  * must be test_device_open or test_device_open_alone. */
 #define test_on_device(function) cmocka_unit_test_teardown(function, test_device_is_clean)
+
+/* Makes such an entry of a test that works in a temporary folder of its own (support/folders.h). */
+#define test_in_folder_on_device(function)                                                         \
+    cmocka_unit_test_setup_teardown(function, test_enter_folder, test_device_leave_folder)
+
+/* A tear-down of a test for cmocka: that of the folder, and that of the device. */
+int test_device_leave_folder(void **state);
 
 #endif

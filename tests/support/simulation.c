@@ -4,11 +4,14 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "job/state.h"
 #include "shared/random.h"
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/pools.h"
+#include "support/scenes.h"
 
 void simulation_start_gas(struct simulation *run, const struct kiln_scene *scene,
                           struct kiln_device *device, enum kiln_simulate_technique technique,
@@ -91,4 +94,38 @@ int simulation_device_open(void **state)
         exit(77);
     }
     return 0;
+}
+
+struct kiln_scene *simulation_start_text(struct simulation *run, const char *text, uint32_t threads)
+{
+    struct kiln_scene *scene = load_scene(text, NULL);
+    simulation_start(run, scene, NULL, threads);
+    return scene;
+}
+
+void simulation_end_text(struct simulation *run, struct kiln_scene *scene)
+{
+    simulation_end(run);
+    kiln_scene_destroy(&scene);
+}
+
+void simulation_save(struct simulation *run, const char *path)
+{
+    static const char motion[] = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
+    struct kiln_state state = {.pool = &run->pool};
+    struct kiln_error error = {0};
+    memcpy(state.info.motion, motion, sizeof state.info.motion);
+    state.info.step = run->step;
+    state.info.hash = simulation_hash(run, &state.info.alive);
+    if (!kiln_state_write(&state, path, true, run->threads, &error))
+        fail_msg("%s", error.message);
+}
+
+bool simulation_take_up(struct simulation *run, const char *path, struct kiln_error *error)
+{
+    struct kiln_state state = {.pool = &run->pool};
+    if (!kiln_state_read(&state, path, run->threads, error))
+        return false;
+    run->step = state.info.step;
+    return true;
 }

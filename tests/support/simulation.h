@@ -18,7 +18,7 @@ void simulation_start_with(struct simulation *run, const struct kiln_scene *scen
                            struct kiln_device *device, enum kiln_simulate_technique technique,
                            uint32_t threads);
 
-/* The same with a technique of gas other than `cpu`. */
+/* Starts a run whose gas has a technique of its own, too. */
 void simulation_start_gas(struct simulation *run, const struct kiln_scene *scene,
                           struct kiln_device *device, enum kiln_simulate_technique technique,
                           enum kiln_gas_technique gas, uint32_t threads);
@@ -40,6 +40,19 @@ struct kiln_state_hash simulation_run_hashed(struct simulation *run, uint32_t st
 /* Returns the particle records of all slots, in host memory, valid until the next step. */
 const struct kiln_particle *simulation_records(struct simulation *run);
 void simulation_end(struct simulation *run);
+
+/* Starts a run of the scene of a text with the technique `cpu`, and returns the scene;
+ * simulation_end_text ends the run and destroys the scene. */
+struct kiln_scene *simulation_start_text(struct simulation *run, const char *text,
+                                         uint32_t threads);
+void simulation_end_text(struct simulation *run, struct kiln_scene *scene);
+
+/* Saves the state after the last step in a file. A failure fails the test. */
+void simulation_save(struct simulation *run, const char *path);
+
+/* Lets a run go on from the state in a file, of a run of the same scene. Returns false with an
+ * error if the file cannot be read. */
+bool simulation_take_up(struct simulation *run, const char *path, struct kiln_error *error);
 
 /* A group set-up for cmocka that opens the device. If the device does not round as the CPU does
  * (shared/exact.h), the program ends as skipped, since states on it may differ from those of the

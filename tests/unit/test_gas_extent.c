@@ -61,7 +61,7 @@ static void a_plume_is_a_cone(void **state)
     expect_cells(extent_of(NULL, "", 0.0), 64, 32, 64);
 }
 
-/* What widens, or rises faster, is a wider source, more turbulence, and heat. */
+/* A wider source, more turbulence and more heat each let the gas be expected in more bricks. */
 static void spread_follows_the_source(void **state)
 {
     (void)state;

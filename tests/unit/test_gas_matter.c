@@ -1,4 +1,4 @@
-/* What gas carries, against closed forms: smoke that is neither lost nor made, fire, decay
+/* Compares what gas carries with closed forms: smoke that is neither lost nor made, fire, decay
  * and colours. If this fails, a fire burns too fast, or smoke vanishes. */
 #include <math.h>
 #include <stdio.h>
@@ -9,20 +9,6 @@
 #include "support/gas_rig.h"
 #include "support/scenes.h"
 #include "support/simulation.h"
-
-/* Starts a scene of a text on two threads. */
-static struct kiln_scene *start(struct simulation *run, const char *text)
-{
-    struct kiln_scene *scene = load_scene(text, NULL);
-    simulation_start(run, scene, NULL, 2);
-    return scene;
-}
-
-static void end(struct simulation *run, struct kiln_scene *scene)
-{
-    simulation_end(run);
-    kiln_scene_destroy(&scene);
-}
 
 /* A domain that stands still: air that nothing moves. Its cells are 1/16 m. */
 #define STILL                                                                                      \
@@ -44,7 +30,7 @@ static void smoke_is_kept(void **state)
         "  sources: [{from: {sphere: {origin: [0.2, 0.5, 0], radius: 0.3}}, fuel: 0, smoke: 1,\n"
         "    temperature: 0.5, rate: {keys: {0 s: 20, 0.3 s: 20, 0.31 s: 0}}}]}}\n";
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     simulation_run(&run, 11);
     const double before = gas_sum(gas, GAS_SMOKE);
@@ -57,7 +43,7 @@ static void smoke_is_kept(void **state)
     assert_true(before > 50.0 && fastest > 0.5);
     if (!(most < 1e-3)) /* 2.0e-4 */
         fail_msg("the smoke of a closed box changed by %.2g", most);
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 /* ---- fire ------------------------------------------------------------------------------------ */
@@ -116,7 +102,7 @@ static struct fire burn_cell(const struct burning *b, uint32_t rate, double time
              rate, b->ignition, b->rate, b->heat, b->soot, b->expand, b->life, b->gain, b->clear,
              b->glow, b->even, b->decay, 1.0 / rate, 1.0 / rate + 1e-6);
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     simulation_run(&run, 1);
     const float *cell = gas_cell(&run.pool.gas[0], 7, 8, 8);
     assert_true(cell[GAS_FUEL] == 0.3f && cell[GAS_TEMPERATURE] == 0.6f);
@@ -124,7 +110,7 @@ static struct fire burn_cell(const struct burning *b, uint32_t rate, double time
     cell = gas_cell(&run.pool.gas[0], 7, 8, 8);
     const struct fire found = {(double)cell[GAS_FUEL], (double)cell[GAS_TEMPERATURE],
                                (double)cell[GAS_SMOKE], (double)cell[GAS_FLAME]};
-    end(&run, scene);
+    simulation_end_text(&run, scene);
     return found;
 }
 
@@ -173,7 +159,7 @@ static void smoke_decays(void **state)
         "  sources: [{from: {box: {size: [2, 2, 2]}}, fuel: 0, temperature: 0, smoke: 2,\n"
         "    noise: {amount: 0}, rate: {keys: {0 s: 10000, 0.02 s: 10000, 0.021 s: 0}}}]}}\n";
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     simulation_run(&run, 1);
     for (int i = 1; i <= 4; i++) {
         simulation_run(&run, 30);
@@ -183,7 +169,7 @@ static void smoke_decays(void **state)
             fail_msg("after %.1f s there is smoke of %.6f, expected %.6f", 0.5 * i, found,
                      expected);
     }
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 /* Smoke of one colour keeps it wherever it flows; that of two sources has mixtures of both. */
@@ -201,7 +187,7 @@ static void smoke_keeps_its_colour(void **state)
         char full[700];
         snprintf(full, sizeof full, text, "0.3", two ? "0.1, 0.2, 0.9" : "0.8, 0.2, 0.1");
         struct simulation run;
-        struct kiln_scene *scene = start(&run, full);
+        struct kiln_scene *scene = simulation_start_text(&run, full, 2);
         const struct kiln_gas *gas = &run.pool.gas[0];
         simulation_run(&run, 45);
         double most = 0.0;
@@ -225,7 +211,7 @@ static void smoke_keeps_its_colour(void **state)
             fail_msg("%u cells have smoke, and %u of them mixtures", cells, mixed);
         if (!(most < 1e-5)) /* 1.3e-6 */
             fail_msg("a colour is off by %.3g", most);
-        end(&run, scene);
+        simulation_end_text(&run, scene);
     }
 }
 
@@ -243,7 +229,7 @@ static void gas_remembers_where_it_came_from(void **state)
         char full[600];
         snprintf(full, sizeof full, text, blows ? "0.6" : "0");
         struct simulation run;
-        struct kiln_scene *scene = start(&run, full);
+        struct kiln_scene *scene = simulation_start_text(&run, full, 2);
         const struct kiln_gas *gas = &run.pool.gas[0];
         simulation_run(&run, 20);
         const struct kiln_gas_brick *brick = &gas->brick[kiln_gas_brick_index(gas, 3, 1, 1)];
@@ -255,7 +241,7 @@ static void gas_remembers_where_it_came_from(void **state)
             assert_true(fabs((double)first[k] - expected) < 1e-5 && first[k + 1] == 0.0f);
             assert_true(fabs((double)second[k] - expected) < 1e-5 && second[k + 2] == 0.0f);
         }
-        end(&run, scene);
+        simulation_end_text(&run, scene);
     }
 }
 

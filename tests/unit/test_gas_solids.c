@@ -10,19 +10,6 @@
 #include "support/scenes.h"
 #include "support/simulation.h"
 
-static struct kiln_scene *start(struct simulation *run, const char *text)
-{
-    struct kiln_scene *scene = load_scene(text, NULL);
-    simulation_start(run, scene, NULL, 2);
-    return scene;
-}
-
-static void end(struct simulation *run, struct kiln_scene *scene)
-{
-    simulation_end(run);
-    kiln_scene_destroy(&scene);
-}
-
 /* ---- leaks ----------------------------------------------------------------------------------- */
 
 /* A jet of hot smoke blows at a wall that reaches through the whole domain. `wall` has the place of
@@ -48,7 +35,7 @@ static double leaked(const struct wall *wall, double *before)
              "    temperature: 1, smoke: 1, velocity: [3, 0, 0]}]}}\n",
              wall->center, wall->thick, wall->degrees);
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     const double c = cos(wall->degrees * M_PI / 180), s = sin(wall->degrees * M_PI / 180);
     double most = 0.0;
@@ -69,7 +56,7 @@ static double leaked(const struct wall *wall, double *before)
                 }
         *before = sum;
     }
-    end(&run, scene);
+    simulation_end_text(&run, scene);
     return most;
 }
 
@@ -115,7 +102,7 @@ static void a_piston_pushes_the_air(void **state)
         "  sources: [{from: {box: {origin: [0.5, 0.5, 0], size: [0.3, 0.5, 0.5]}}, fuel: 0,\n"
         "    temperature: 0, smoke: 1}]}}\n";
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     for (int turn = 0; turn < 3; turn++) {
         simulation_run(&run, 20);
@@ -135,7 +122,7 @@ static void a_piston_pushes_the_air(void **state)
         if (!(most < 1e-3)) /* 2.6e-4 at first, then 6e-5 */
             fail_msg("step %u: a velocity differs from that of the piston by %.3g", run.step, most);
     }
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 /* A ball moves through even smoke in a closed box: there is none in the ball, and around it the
@@ -153,7 +140,7 @@ static void a_ball_parts_the_smoke(void **state)
         "  sources: [{from: {box: {size: [9, 9, 9]}}, fuel: 0, temperature: 0, smoke: 1,\n"
         "    noise: {amount: 0}, rate: {keys: {0 s: 10000, 0.02 s: 10000, 0.021 s: 0}}}]}}\n";
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     simulation_run(&run, 1);
     const double first = gas_sum(gas, GAS_SMOKE);
@@ -186,7 +173,7 @@ static void a_ball_parts_the_smoke(void **state)
         if (!(fabs(gas_sum(gas, GAS_SMOKE) / first - 1.0) < 1e-3)) /* 3e-4 */
             fail_msg("the smoke became %.5f of what it was", gas_sum(gas, GAS_SMOKE) / first);
     }
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 int main(void)

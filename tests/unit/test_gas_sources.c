@@ -13,20 +13,6 @@
 #include "support/scenes.h"
 #include "support/simulation.h"
 
-/* Starts a scene of a text on two threads. */
-static struct kiln_scene *start(struct simulation *run, const char *text)
-{
-    struct kiln_scene *scene = load_scene(text, NULL);
-    simulation_start(run, scene, NULL, 2);
-    return scene;
-}
-
-static void end(struct simulation *run, struct kiln_scene *scene)
-{
-    simulation_end(run);
-    kiln_scene_destroy(&scene);
-}
-
 /* A domain that stands still: air that nothing moves. Its cells are 1/16 m. */
 #define STILL                                                                                      \
     "cell: 0.0625, buoyancy: 0, vorticity: 0, drag: 0, turbulence: {strength: 0}, "                \
@@ -127,7 +113,7 @@ static void sources_lie_where_their_shapes_do(void **state)
                  "    noise: {amount: 0}}]}}\n",
                  shapes[i].from);
         struct simulation run;
-        struct kiln_scene *scene = start(&run, text);
+        struct kiln_scene *scene = simulation_start_text(&run, text, 2);
         const struct kiln_gas *gas = &run.pool.gas[0];
         simulation_run(&run, 1);
         const double taken = 1.0 - exp(-20.0 / 60.0);
@@ -148,7 +134,7 @@ static void sources_lie_where_their_shapes_do(void **state)
         assert_true(reached > 200);
         if (!(most < 1e-6)) /* 3.5e-7 */
             fail_msg("%s: a cell is off by %.3g", shapes[i].from, most);
-        end(&run, scene);
+        simulation_end_text(&run, scene);
     }
 }
 
@@ -247,7 +233,7 @@ static void shells_are_empty(void **state)
                  "    smoke: 1, noise: {amount: 0}}]}}\n",
                  shapes[i]);
         struct simulation run;
-        struct kiln_scene *scene = start(&run, text);
+        struct kiln_scene *scene = simulation_start_text(&run, text, 2);
         simulation_run(&run, 10);
         const struct kiln_gas *gas = &run.pool.gas[0];
         assert_true(gas_sum(gas, GAS_SMOKE) > 300.0);
@@ -255,7 +241,7 @@ static void shells_are_empty(void **state)
         for (int32_t k = 0; k < n * n * n; k++)
             assert_true(gas_at(gas, GAS_SMOKE, first + k % n, first + k / n % n,
                                first + k / (n * n)) == 0.0f);
-        end(&run, scene);
+        simulation_end_text(&run, scene);
     }
 }
 
@@ -272,7 +258,7 @@ static void particles_are_sources(void **state)
         "  sources: [{from: {system: dots}, reach: 0.3, rate: 20, fuel: 0, temperature: 0,\n"
         "    smoke: 2, noise: {amount: 0}}]}}\n";
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     uint64_t alive;
     simulation_run(&run, 1);
@@ -305,7 +291,7 @@ static void particles_are_sources(void **state)
     assert_true(densest > 1.0);
     if (!(most < 2e-6)) /* 4.8e-7 */
         fail_msg("a cell is off by %.3g", most);
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 /* Fills in the smoke of a source with noise after a step, in blocks of 1/8 m. */
@@ -319,7 +305,7 @@ static void fill_noise(const char *cell, int32_t block, float smoke[16][16][16])
              "    smoke: 1, rate: 10000, noise: {amount: 0.8, size: 0.9}}]}}\n",
              cell);
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     simulation_run(&run, 1);
     memset(smoke, 0, sizeof(float[16][16][16]));
     for (int32_t z = 0; z < 16 * block; z++)
@@ -327,7 +313,7 @@ static void fill_noise(const char *cell, int32_t block, float smoke[16][16][16])
             for (int32_t x = 0; x < 16 * block; x++)
                 smoke[z / block][y / block][x / block] +=
                     gas_at(&run.pool.gas[0], GAS_SMOKE, x, y, z) / (float)(block * block * block);
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 /* The noise of a source is in metres: cells of half the size have the same pattern. */

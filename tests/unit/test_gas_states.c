@@ -15,7 +15,6 @@
 #include "support/simulation.h"
 
 #define FILE_NAME "a.kilnstate"
-#define MOTION    "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"
 
 /* Fire with coloured smoke, a solid that moves, a wind, and particles that are its sources and ride
  * it; and a closed room in a node that turns, whose smoke is kept. */
@@ -45,26 +44,6 @@ static const char ROOM[] =
     "gas: {room: {box: {size: [1.6, 1.6, 1.6]}, cell: 0.1, burn: none, detail: 2,\n"
     "  sources: [{from: {point: {origin: [0, 0.8, 0]}}, fuel: 0, temperature: 1, smoke: 1}]}}\n";
 
-static void save(struct simulation *run)
-{
-    struct kiln_state state = {.pool = &run->pool};
-    struct kiln_error error = {0};
-    memcpy(state.info.motion, MOTION, sizeof state.info.motion);
-    state.info.step = run->step;
-    state.info.hash = simulation_hash(run, &state.info.alive);
-    if (!kiln_state_write(&state, FILE_NAME, true, run->threads, &error))
-        fail_msg("%s", error.message);
-}
-
-static bool take_up(struct simulation *run, struct kiln_error *error)
-{
-    struct kiln_state state = {.pool = &run->pool};
-    if (!kiln_state_read(&state, FILE_NAME, run->threads, error))
-        return false;
-    run->step = state.info.step;
-    return true;
-}
-
 static void expect_same(struct simulation *a, struct simulation *b, uint32_t saved)
 {
     uint64_t alive[2];
@@ -87,8 +66,8 @@ static void runs_of_gas_go_on(void **state)
         struct kiln_error error = {0};
         simulation_start(&whole, scene, NULL, 2);
         simulation_run(&whole, steps[i]);
-        save(&whole);
-        if (!take_up(&other, &error))
+        simulation_save(&whole, FILE_NAME);
+        if (!simulation_take_up(&other, FILE_NAME, &error))
             fail_msg("%s", error.message);
         expect_same(&whole, &other, steps[i]);
         for (int k = 0; k < 5; k++) {
@@ -120,10 +99,10 @@ static void pieces_make_up_a_run(void **state)
         struct kiln_error error = {0};
         simulation_run(&whole, 3);
         simulation_run(&pieces, 3);
-        save(&pieces);
+        simulation_save(&pieces, FILE_NAME);
         simulation_end(&pieces);
         simulation_start(&pieces, scene, NULL, 1);
-        if (!take_up(&pieces, &error))
+        if (!simulation_take_up(&pieces, FILE_NAME, &error))
             fail_msg("%s", error.message);
         expect_same(&whole, &pieces, step);
     }
@@ -191,14 +170,14 @@ static void wrong_numbers_are_refused(void **state)
         struct kiln_error error = {0};
         const float before = *cases[i].number;
         *cases[i].number = cases[i].value;
-        save(&runs.first);
-        if (take_up(&runs.second, &error))
+        simulation_save(&runs.first, FILE_NAME);
+        if (simulation_take_up(&runs.second, FILE_NAME, &error))
             fail_msg("case %zu: a state with the number %g is read", i, (double)cases[i].value);
         expect_error(&error, KILN_INVALID_INPUT, DAMAGED);
         *cases[i].number = before;
-        save(&runs.first);
+        simulation_save(&runs.first, FILE_NAME);
         error = (struct kiln_error){0};
-        if (!take_up(&runs.second, &error))
+        if (!simulation_take_up(&runs.second, FILE_NAME, &error))
             fail_msg("%s", error.message);
     }
     end_room(&runs);
@@ -292,7 +271,7 @@ static void damage_is_seen(void **state)
     (void)state;
     struct runs runs;
     start_room(&runs);
-    save(&runs.first);
+    simulation_save(&runs.first, FILE_NAME);
     FILE *file = fopen(FILE_NAME, "rb");
     assert_non_null(file);
     uint8_t *bytes = malloc(1 << 22);
@@ -312,7 +291,7 @@ static void damage_is_seen(void **state)
             assert_int_equal(fwrite(bytes, 1, cut ? i : size, file), cut ? i : size);
             fclose(file);
             bytes[i] = before;
-            if (take_up(&runs.second, &error))
+            if (simulation_take_up(&runs.second, FILE_NAME, &error))
                 fail_msg("a state %s at byte %zu is read", cut ? "cut" : "changed", i);
             assert_int_equal(error.code, KILN_INVALID_INPUT);
         }

@@ -11,19 +11,6 @@
 #include "support/scenes.h"
 #include "support/simulation.h"
 
-static struct kiln_scene *start(struct simulation *run, const char *text, uint32_t threads)
-{
-    struct kiln_scene *scene = load_scene(text, NULL);
-    simulation_start(run, scene, NULL, threads);
-    return scene;
-}
-
-static void end(struct simulation *run, struct kiln_scene *scene)
-{
-    simulation_end(run);
-    kiln_scene_destroy(&scene);
-}
-
 static struct kiln_state_hash hash_of(const struct kiln_gas *gas)
 {
     struct kiln_state_hash hash = {{0, 0}};
@@ -81,7 +68,7 @@ static void windows_follow_the_gas(void **state)
         "  sources: [{from: {sphere: {origin: [0, 1, 0], radius: 0.5}}, fuel: 0, temperature: 1,\n"
         "    smoke: 1, rate: {keys: {0 s: 30, 0.1 s: 30, 0.11 s: 0}}}]}}\n";
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text, 2);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     uint32_t most = 0;
     int32_t lowest = 0;
@@ -110,7 +97,7 @@ static void windows_follow_the_gas(void **state)
     assert_int_equal(active_bricks(gas), 0);
     assert_int_equal(gas->cells.y, 0);
     assert_true(hash_of(gas).lane[0] == 0 && hash_of(gas).lane[1] == 0);
-    end(&run, scene);
+    simulation_end_text(&run, scene);
 }
 
 /* ---- large domains --------------------------------------------------------------------------- */
@@ -145,9 +132,9 @@ static void plumes_do_not_depend_on_their_domain(void **state)
 {
     (void)state;
     struct simulation small, large;
-    struct kiln_scene *first = start(
+    struct kiln_scene *first = simulation_start_text(
         &small, "kiln: 1\nsimulation: {rate: 30}\ngas: {a: {box: {size: [6, 6, 6]}, " PLUME, 2);
-    struct kiln_scene *second = start(
+    struct kiln_scene *second = simulation_start_text(
         &large, "kiln: 1\nsimulation: {rate: 30}\ngas: {a: {box: {size: [10, 16, 14]}, " PLUME, 1);
     const struct kiln_gas *a = &small.pool.gas[0], *b = &large.pool.gas[0];
     uint32_t steps = 0, windows = 0;
@@ -167,8 +154,8 @@ static void plumes_do_not_depend_on_their_domain(void **state)
             fail_msg("in step %u, a plume is another one in a larger domain", steps + 1);
     }
     assert_true(steps >= 10 && windows >= 2);
-    end(&small, first);
-    end(&large, second);
+    simulation_end_text(&small, first);
+    simulation_end_text(&large, second);
 }
 
 /* Domains of 1024 cells along an edge, with a source near their end. */
@@ -187,7 +174,7 @@ static void the_largest_edges_have_gas(void **state)
                  "  fuel: 0, temperature: 1, smoke: 1, noise: {amount: 0}}]}}\n",
                  size[0], size[1], size[2], at[0], at[1], at[2]);
         struct simulation run;
-        struct kiln_scene *scene = start(&run, text, 2);
+        struct kiln_scene *scene = simulation_start_text(&run, text, 2);
         const struct kiln_gas *gas = &run.pool.gas[0];
         simulation_run(&run, 3);
         const int32_t all[3] = {gas->shape.cells.x, gas->shape.cells.y, gas->shape.cells.z};
@@ -198,7 +185,7 @@ static void the_largest_edges_have_gas(void **state)
         assert_int_equal(all[axis], KILN_MAX_GAS_EDGE);
         assert_int_equal(from[axis] + cells[axis], KILN_MAX_GAS_EDGE);
         assert_true(cells[axis] <= 64 && fabs(center[axis] - 31.5) < 0.02);
-        end(&run, scene);
+        simulation_end_text(&run, scene);
     }
 }
 
@@ -231,7 +218,7 @@ static void all_levels_and_threads_have_one_state(void **state)
         for (uint32_t threads = 1; threads <= 3 && kiln_simd_has(level); threads++) {
             struct simulation run;
             setenv("KILN_SIMD", kiln_simd_name(level), 1);
-            struct kiln_scene *scene = start(&run, ALL, threads);
+            struct kiln_scene *scene = simulation_start_text(&run, ALL, threads);
             const struct kiln_state_hash hash = simulation_run_hashed(&run, 12);
             assert_true(gas_sum(&run.pool.gas[0], GAS_FLAME) > 1.0);
             assert_true(gas_sum(&run.pool.gas[1], GAS_SMOKE) > 1.0);
@@ -240,7 +227,7 @@ static void all_levels_and_threads_have_one_state(void **state)
             if (memcmp(&hash, &first, sizeof hash) != 0)
                 fail_msg("%s with %u threads: %08x%08x, expected %08x%08x", kiln_simd_name(level),
                          threads, hash.lane[0], hash.lane[1], first.lane[0], first.lane[1]);
-            end(&run, scene);
+            simulation_end_text(&run, scene);
         }
     unsetenv("KILN_SIMD");
 }
@@ -260,7 +247,7 @@ static double flame_height(uint32_t substeps)
              "  turbulence: {strength: 6, size: 0.25, octaves: 2, speed: 0.7}}}\n",
              substeps);
     struct simulation run;
-    struct kiln_scene *scene = start(&run, text, 2);
+    struct kiln_scene *scene = simulation_start_text(&run, text, 2);
     const struct kiln_gas *gas = &run.pool.gas[0];
     simulation_run(&run, 59);
     double height = 0.0, fastest = 0.0;
@@ -282,7 +269,7 @@ static double flame_height(uint32_t substeps)
     }
     /* gas moves less than two cells in a substep, so none is held back */
     assert_true(fastest / 60.0 / substeps < 2.0 * (double)gas->shape.cell);
-    end(&run, scene);
+    simulation_end_text(&run, scene);
     return height / steps;
 }
 
