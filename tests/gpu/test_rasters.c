@@ -226,7 +226,7 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
 }
 
 /* Simulates and draws the frame in the middle of the clip, or the state after MOST_STEPS steps if
- * that is earlier. */
+ * that is earlier. A scene of gas alone has no particles to draw. */
 static void draw_subject(struct subject *s)
 {
     struct kiln_error error = {0};
@@ -237,7 +237,7 @@ static void draw_subject(struct subject *s)
     if (!kiln_stages_draw(&s->stages, NULL, &s->run.pool, kiln_instant_at_step(step), 0, &drawn,
                           &error))
         fail_msg("%s", error.message);
-    assert_true(drawn > 0);
+    assert_true(drawn > 0 || s->scene->system_count == 0);
 }
 
 static void close_subject(struct subject *s)
