@@ -88,8 +88,9 @@
 
 struct kiln_gas_kernel {
     S(kiln_gas_step) step;
-    float4 turn; /* 1/s: twice the spin of the domain; w: strength of the noise, m/s */
-    float4 stir; /* of the noise: scale, rise; its octaves and its seed are below */
+    float4 turn;        /* 1/s: twice the spin of the domain; w: strength of the noise, m/s */
+    float4 stir;        /* of the noise: scale, rise; its octaves and its seed are below */
+    float4 least, most; /* m/s: of the velocity of air beyond open sides */
     uint bricks_x, bricks_y, bricks_z, groups;
     uint at_x, at_y, at_z, first_way; /* cells: of the window; group that the ways begin with */
     uint row, plane, face, faces; /* of arrays of faces: strides, the first cell, a whole array */

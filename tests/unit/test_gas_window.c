@@ -65,7 +65,7 @@ static void windows_follow_the_gas(void **state)
         "  decay: {keys: {3 s: 2, 3.1 s: 100}}, turbulence: {strength: 0},\n"
         "  cooling: {glow: 0, even: {keys: {3 s: 0.4, 3.1 s: 100}}},\n"
         "  forces: [{wind: {velocity: [0, 8, 0], pull: 3 1/s}}],\n"
-        "  sources: [{from: {sphere: {origin: [0, 1, 0], radius: 0.5}}, fuel: 0, temperature: 1,\n"
+        "  sources: [{from: {sphere: {origin: [0, 4, 0], radius: 0.5}}, fuel: 0, temperature: 1,\n"
         "    smoke: 1, rate: {keys: {0 s: 30, 0.1 s: 30, 0.11 s: 0}}}]}}\n";
     struct simulation run;
     struct kiln_scene *scene = simulation_start_text(&run, text, 2);

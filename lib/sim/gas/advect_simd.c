@@ -80,7 +80,6 @@ static void share_ends(const struct gas_pass *pass, gas_brick_place at,
 {
     const bool last = at.x + 1 == pass->gas->bricks.x;
     const bool left = at.x > 0 && brick[-1].joined, right = !last && brick[1].joined;
-    static const float none[GAS_CARRIED];
     const ptrdiff_t to_end = (ptrdiff_t)GAS_BRICK * GAS_TRACED;
     for (int32_t row = 0; row < GAS_BRICK * GAS_BRICK; row++) {
         const ptrdiff_t at_row = traced_row(row), at_end = at_row + to_end;
@@ -90,7 +89,7 @@ static void share_ends(const struct gas_pass *pass, gas_brick_place at,
         if (last) {
             copy_eight(end, end - GAS_TRACED);
             if (!pass->closed[1])
-                copy_four(end + GAS_CARRIED_AT, none);
+                make_outer(&pass->forces, end);
         } else if (!right) {
             copy_eight(end, brick->joined + at_end);
         }
@@ -107,7 +106,7 @@ static void trace_brick(const struct gas_pass *pass, gas_brick_place at,
     around_of(&around, pass, at);
     find_flow(gas, &around, space, 1);
     const struct reach reach = find_ways(pass->step, space);
-    find_rows(gas, &around, false, space, reach, &rows);
+    find_rows(pass, &around, false, space, reach, &rows);
     for (int32_t z = 0; z < GAS_BRICK; z++)
         for (int32_t y = 0; y < GAS_BRICK; y++) {
             float *to = brick->traced + traced_row(z * GAS_BRICK + y);
@@ -398,8 +397,8 @@ static struct gas_found react(const struct gas_pass *pass, gas_brick_place at,
     around_of(&around, pass, at);
     find_flow(gas, &around, space, cells_around);
     const struct reach reach = find_ways(pass->step, space);
-    find_rows(gas, &around, false, space, reach, &now);
-    find_rows(gas, &around, true, space, reach, &traced);
+    find_rows(pass, &around, false, space, reach, &now);
+    find_rows(pass, &around, true, space, reach, &traced);
     if (around.walls)
         gather_walls(&around, space);
     if (confined)

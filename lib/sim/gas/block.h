@@ -7,6 +7,7 @@
 #ifndef KILN_SIM_GAS_BLOCK_H
 #define KILN_SIM_GAS_BLOCK_H
 
+#include "shared/exact.h"
 #include "sim/gas/advect.h"
 #include "sim/gas/gas_lanes.h"
 
@@ -137,6 +138,16 @@ SIMD void copy_eight(float *to, const float *from)
     eight_store(to, eight_load(from));
 }
 
+/* Makes a cell one of the air beyond an open side, from where no gas comes. It has the velocity of
+ * the nearest cell, as far as the air there may have it. */
+static void make_outer(const struct gas_lattice *forces, float *cell)
+{
+    static const float none[GAS_CARRIED];
+    for (int c = 0; c < 3; c++)
+        cell[c] = exact_clamp(cell[c], forces->least[c], forces->most[c]);
+    copy_four(cell + GAS_CARRIED_AT, none);
+}
+
 /* Stores the velocities of LANES cells, and what they carry, which lies cell by cell. */
 SIMD void join_cells(float *cells, vf u, vf v, vf w, const float *carried)
 {
@@ -187,10 +198,10 @@ static void join_brick(const struct gas_pass *pass, gas_brick_place at)
             join_cells(cells + x * GAS_TRACED, u[0], u[1], u[2], carried + x * GAS_CARRIED);
         }
         float *end = cells + (ptrdiff_t)GAS_BRICK * GAS_TRACED;
-        if (last) { /* the nearest cell; no gas comes from beyond an open side */
+        if (last) { /* the nearest cell */
             copy_eight(end, end - GAS_TRACED);
             if (!pass->closed[1])
-                copy_four(end + GAS_CARRIED_AT, none);
+                make_outer(&pass->forces, end);
             continue;
         }
         for (int c = 0; c < 3; c++)
@@ -236,11 +247,12 @@ static struct row row_of(const struct kiln_gas *gas, const struct around *around
 
 /* Brings cells [begin, end) of a row of a block together. Idle cells carry nothing, and traced they
  * are as they were: as in `now`. */
-static void gather_cells(const struct kiln_gas *gas, const struct around *around,
+static void gather_cells(const struct gas_pass *pass, const struct around *around,
                          const struct row *row, bool traced, const float *now, int32_t begin,
                          int32_t end, float *to)
 {
     static const float none[GAS_CARRIED];
+    const struct kiln_gas *gas = pass->gas;
     const ptrdiff_t next[3] = {1, gas->row, gas->plane};
     for (int32_t x = begin; x < end; x++) {
         const struct kiln_gas_brick *from = row->brick[around->x.brick[x]];
@@ -259,13 +271,13 @@ static void gather_cells(const struct kiln_gas *gas, const struct around *around
             copy_four(own + GAS_CARRIED_AT, none);
         }
         if (row->open || around->x.open[x])
-            copy_four(own + GAS_CARRIED_AT, none);
+            make_outer(&pass->forces, own);
     }
 }
 
 /* Fills the table of a block's joined cells, or of its traced ones, whose table needs that of the
  * former. */
-static void find_rows(const struct kiln_gas *gas, const struct around *around, bool traced,
+static void find_rows(const struct gas_pass *pass, const struct around *around, bool traced,
                       struct gas_workspace *space, struct reach reach, struct rows *rows)
 {
     /* cells of a block in each brick, and the first one of the next brick */
@@ -274,7 +286,7 @@ static void find_rows(const struct kiln_gas *gas, const struct around *around, b
     float *block = traced ? space->traced : space->now;
     for (int32_t z = BELOW - reach.z; z <= BELOW + GAS_BRICK + reach.z; z++)
         for (int32_t y = BELOW - reach.y; y <= BELOW + GAS_BRICK + reach.y; y++) {
-            const struct row row = row_of(gas, around, y, z);
+            const struct row row = row_of(pass->gas, around, y, z);
             const ptrdiff_t at = (ptrdiff_t)z * PLANE + (ptrdiff_t)y * ROW;
             const float **entry = &rows->of[z * ON + y * UP];
             for (int i = 0; i < 3; i++) {
@@ -283,7 +295,7 @@ static void find_rows(const struct kiln_gas *gas, const struct around *around, b
                     entry[i] = (traced ? brick->traced : brick->joined) + row.cells;
                     continue;
                 }
-                gather_cells(gas, around, &row, traced, space->now + at, begin[i], end[i],
+                gather_cells(pass, around, &row, traced, space->now + at, begin[i], end[i],
                              block + at);
                 entry[i] = block + at + (BELOW + (ptrdiff_t)(i - 1) * GAS_BRICK) * GAS_TRACED;
             }

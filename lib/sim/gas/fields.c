@@ -423,6 +423,8 @@ static struct kiln_gas_kernel params_of(const struct gas_fields *fields, const s
         .turn = FLOAT4(forces->twice_spin[0], forces->twice_spin[1], forces->twice_spin[2],
                        pass->stir.strength),
         .stir = FLOAT4(pass->stir.scale, pass->stir.rise, 1.0f / pass->step->cell, 0.0f),
+        .least = FLOAT4(forces->least[0], forces->least[1], forces->least[2], 0.0f),
+        .most = FLOAT4(forces->most[0], forces->most[1], forces->most[2], 0.0f),
         .bricks_x = (uint32_t)gas->bricks.x,
         .bricks_y = (uint32_t)gas->bricks.y,
         .bricks_z = (uint32_t)gas->bricks.z,

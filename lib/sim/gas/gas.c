@@ -294,9 +294,11 @@ static bool fill_lattice(const struct run *run, struct gas_lattice *lattice)
         if (d->settings->force_count > 0)
             run->forces->fill(run->forces->context, run->sim, run->number, &grid, step, d->lattice);
         add_drag(d->lattice, points, drag_of(run));
-        d->held = (struct gas_lattice){d->lattice, grid.size.x, grid.size.x * grid.size.y, {0}};
+        d->held = (struct gas_lattice){
+            .points = d->lattice, .row = grid.size.x, .plane = grid.size.x * grid.size.y};
         if (d->moves)
             add_inertia(run, &grid, d->lattice, &d->held);
+        gas_new_air_bounds(&d->held, gas, &d->solver.rest, drag_of(run));
         d->lattice_step = step;
         d->lattice_at = gas->at;
         d->lattice_cells = gas->cells;

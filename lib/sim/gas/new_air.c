@@ -10,6 +10,13 @@
 
 #include "shared/exact.h"
 
+/* Returns the velocity of resting air along an axis. place: m, in the domain. */
+static float rest_at_point(const struct gas_rest *rest, int axis, const float place[3])
+{
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    return rest->velocity[axis] + (rest->spin[a] * place[b] - rest->spin[b] * place[a]);
+}
+
 /* Returns the velocity of resting air across a face. cell: in the domain, the one above the face.
  */
 static float rest_across(const struct gas_rest *rest, const struct kiln_gas_shape *shape, int axis,
@@ -22,8 +29,7 @@ static float rest_across(const struct gas_rest *rest, const struct kiln_gas_shap
         const float half = i == axis ? 0.0f : 0.5f;
         place[i] = corner[i] + ((float)number[i] + half) * shape->cell;
     }
-    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    return rest->velocity[axis] + (rest->spin[a] * place[b] - rest->spin[b] * place[a]);
+    return rest_at_point(rest, axis, place);
 }
 
 static bool is_still(const struct gas_rest *rest)
@@ -180,4 +186,51 @@ void gas_new_air_blown(struct kiln_gas *gas, struct kiln_gas_place old_at,
                               .blown_s = blown_s,
                               .drag = drag};
     fill(&f);
+}
+
+/* ---- air beyond open sides ------------------------------------------------------------------- */
+
+static void include_speed(struct gas_lattice *forces, int axis, float speed)
+{
+    forces->least[axis] = speed < forces->least[axis] ? speed : forces->least[axis];
+    forces->most[axis] = speed > forces->most[axis] ? speed : forces->most[axis];
+}
+
+/* Includes the velocities of a point of the lattice. place: m, in the domain. */
+static void include_point(struct gas_lattice *forces, const struct gas_rest *rest, float4 force,
+                          float drag, const float place[3])
+{
+    const float along[3] = {force.x, force.y, force.z};
+    for (int axis = 0; axis < 3; axis++) {
+        include_speed(forces, axis, exact_canon(rest_at_point(rest, axis, place)));
+        if (force.w > drag)
+            include_speed(forces, axis, exact_canon(exact_div(along[axis], force.w)));
+    }
+}
+
+void gas_new_air_bounds(struct gas_lattice *forces, const struct kiln_gas *gas,
+                        const struct gas_rest *rest, float drag)
+{
+    const struct kiln_gas_shape *shape = &gas->shape;
+    const int32_t last[3] = {gas->cells.x / GAS_LATTICE, gas->cells.y / GAS_LATTICE,
+                             gas->cells.z / GAS_LATTICE};
+    const float apart = shape->cell * (float)GAS_LATTICE;
+    const float corner[3] = {shape->corner.x + (float)gas->at.x * shape->cell,
+                             shape->corner.y + (float)gas->at.y * shape->cell,
+                             shape->corner.z + (float)gas->at.z * shape->cell};
+    for (int axis = 0; axis < 3; axis++)
+        forces->least[axis] = forces->most[axis] = exact_canon(rest_at_point(rest, axis, corner));
+    for (int32_t z = 0; z <= last[2]; z++)
+        for (int32_t y = 0; y <= last[1]; y++)
+            for (int32_t x = 0; x <= last[0]; x++) {
+                const bool border =
+                    x == 0 || y == 0 || z == 0 || x == last[0] || y == last[1] || z == last[2];
+                const float place[3] = {corner[0] + (float)x * apart, corner[1] + (float)y * apart,
+                                        corner[2] + (float)z * apart};
+                if (border)
+                    include_point(forces, rest,
+                                  forces->points[(uint32_t)z * forces->plane +
+                                                 (uint32_t)y * forces->row + (uint32_t)x],
+                                  drag, place);
+            }
 }

@@ -23,4 +23,14 @@ void gas_new_air_blown(struct kiln_gas *gas, struct kiln_gas_place old_at,
                        struct kiln_gas_place old_cells, const struct gas_rest *rest,
                        const struct gas_lattice *forces, float blown_s, float drag);
 
+/* Finds between what velocities the air beyond open sides of the window is, into forces->least and
+ * most: that of air at rest, and that which winds on the window's borders would give it in the end.
+ *
+ * Air that flows in from there is like the air at the border only within these. Without a limit it
+ * would bring as much momentum as the air at the border has, and nothing but pressure would ever
+ * slow it: the wind that a fire draws would grow until it blows the fire out (Braack et al.,
+ * "Directional Do-Nothing Condition for the Navier-Stokes Equations", 2014). */
+void gas_new_air_bounds(struct gas_lattice *forces, const struct kiln_gas *gas,
+                        const struct gas_rest *rest, float drag);
+
 #endif

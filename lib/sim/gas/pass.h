@@ -22,9 +22,10 @@ struct gas_wall {
 enum { GAS_LATTICE = 2 };
 
 struct gas_lattice {
-    const float4 *points; /* acceleration, m/s^2, and pull, 1/s; NULL: there are no forces */
-    uint32_t row, plane;  /* points to the next row and plane */
-    float twice_spin[3];  /* 1/s: of the domain, for the Coriolis force */
+    const float4 *points;    /* acceleration, m/s^2, and pull, 1/s; NULL: there are no forces */
+    uint32_t row, plane;     /* points to the next row and plane */
+    float twice_spin[3];     /* 1/s: of the domain, for the Coriolis force */
+    float least[3], most[3]; /* m/s: of the velocity of air beyond open sides (new_air.h) */
 };
 
 /* Noise that stirs gas where it is. */

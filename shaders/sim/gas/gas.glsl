@@ -204,6 +204,17 @@ struct flow {
     vec3 u, by_x, by_y, by_z;
 };
 
+/* Makes a cell one of the air beyond an open side. It has the velocity of the nearest cell, as far
+ * as the air there may have it. */
+joined outer(joined cell)
+{
+    vec4 u = cell.velocity;
+    return joined(vec4(exact_clamp(u.x, gas.least.x, gas.most.x),
+                       exact_clamp(u.y, gas.least.y, gas.most.y),
+                       exact_clamp(u.z, gas.least.z, gas.most.z), u.w),
+                  vec4(0.0f));
+}
+
 #ifdef GAS_USES_CENTRES
 vec3 velocity_at(ivec3 cell)
 {
@@ -215,9 +226,9 @@ vec3 velocity_at(ivec3 cell)
 joined joined_at(ivec3 cell)
 {
     uint place = place_of(nearest(cell));
-    joined j;
-    j.velocity = vec4(centres[place].xyz, 0.0f);
-    j.carried = is_open_air(cell) ? vec4(0.0f) : now_words[place];
+    joined j = joined(vec4(centres[place].xyz, 0.0f), now_words[place]);
+    if (is_open_air(cell))
+        return outer(j);
     return j;
 }
 #endif

@@ -27,7 +27,9 @@ joined traced_at(ivec3 cell)
     bool awake = is_active(brick);
     joined j;
     j.velocity = awake ? traced_words[2u * place] : vec4(centres[place].xyz, 0.0f);
-    j.carried = awake && !is_open_air(cell) ? traced_words[2u * place + 1u] : vec4(0.0f);
+    j.carried = awake ? traced_words[2u * place + 1u] : vec4(0.0f);
+    if (is_open_air(cell))
+        return outer(j);
     return j;
 }
 
