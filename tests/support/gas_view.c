@@ -32,6 +32,8 @@ void gas_view_open(struct gas_view *f)
     assert_true(kiln_moment_fill(&f->moment, NULL, kiln_instant_at_step(0), false, &error));
     kiln_image_init(&f->depth, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_R32F, "depth");
     kiln_image_init(&f->picture, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_RGBA32F, "picture");
+    kiln_image_init(&f->halfway, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_R32F, "halfway");
+    kiln_image_init(&f->layer, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_RGBA32F, "layer");
     float *depth = kiln_image_host(&f->depth, KILN_OVERWRITE, &error);
     for (int i = 0; i < GAS_VIEW_SIZE * GAS_VIEW_SIZE; i++)
         depth[i] = 1e9f;
@@ -43,6 +45,8 @@ void gas_view_close(struct gas_view *f)
         kiln_gas_finish(&f->pool.gas[i]);
     kiln_image_finish(&f->depth);
     kiln_image_finish(&f->picture);
+    kiln_image_finish(&f->halfway);
+    kiln_image_finish(&f->layer);
     kiln_moment_finish(&f->moment);
     kiln_scene_destroy(&f->scene);
 }
@@ -70,9 +74,11 @@ const float *gas_view_draw(struct gas_view *f)
                                          .pool = &f->pool,
                                          .backdrop = &f->light,
                                          .lighting = f->lighting,
-                                         .depth = &f->depth};
+                                         .depth = &f->depth,
+                                         .halfway = f->layers ? &f->halfway : NULL};
     assert_true(kiln_volume_draw(stage, &gas, &error));
     assert_true(kiln_volume_put_under(stage, KILN_VOLUME_ALL, &f->picture, &error));
+    assert_true(!f->layers || kiln_volume_write_layer(stage, &f->layer, &error));
     kiln_volume_destroy(&stage);
     kiln_threads_destroy(&threads);
     return picture;

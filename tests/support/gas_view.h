@@ -17,6 +17,8 @@ struct gas_view {
     struct kiln_moment moment;
     struct kiln_pool pool;
     struct kiln_image depth, picture;
+    bool layers; /* gas_view_draw also draws these: the depth of half opacity, and the gas alone */
+    struct kiln_image halfway, layer;
     struct kiln_draw_backdrop light;
     const struct kiln_lighting *lighting; /* what is in the way of lamps; NULL: nothing */
     uint32_t threads;

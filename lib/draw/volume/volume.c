@@ -15,6 +15,7 @@
 #include "draw/volume/volume_lamps.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_order.h"
+#include "draw/volume/volume_put.h"
 #include "draw/volume/volume_tiles.h"
 #include "scene/gas_extent.h"
 #include "scene/work.h"
@@ -34,6 +35,7 @@ struct kiln_volume_stage {
     struct kiln_volume_tiles tiles;
     uint8_t *touched; /* of each tile: gas was drawn there */
     struct kiln_volume_planes planes;
+    float *passed; /* optical depth of the domains before one, of each pixel; NULL until needed */
     struct kiln_volume_profiles profiles;
     uint32_t width, height;
 };
@@ -123,6 +125,7 @@ void kiln_volume_destroy(struct kiln_volume_stage **stage)
     free(s->planes.smoke);
     free(s->planes.flame);
     free(s->planes.glow);
+    free(s->passed);
     free(s->touched);
     free(s);
     *stage = NULL;
@@ -411,9 +414,9 @@ static void march_tiles(void *context, size_t begin, size_t end, uint32_t worker
         }
 }
 
-/* Copies and lights the gas of a domain. */
+/* Copies and, if asked, lights the gas of a domain. */
 static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
-                       const struct kiln_gas *gas, struct kiln_error *error)
+                       const struct kiln_gas *gas, bool light, struct kiln_error *error)
 {
     const struct kiln_volume_march *m = &domain->march;
     const float least = 2e-4f / (float)GAS_BRICK; /* opacity, or radiance, of a cell */
@@ -425,34 +428,43 @@ static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
                                           .albedo = {m->albedo[0], m->albedo[1], m->albedo[2]}};
     s->lit = false;
     if (!kiln_volume_field_fill(&s->field, gas, &seen, s->threads, error) ||
-        (s->field.count > 0 && !light_domain(s, domain, gas, error)))
+        (light && s->field.count > 0 && !light_domain(s, domain, gas, error)))
         return false;
-    s->lit = true;
+    s->lit = light;
     return true;
 }
 
-/* Draws a domain. kept: whether the field may still be that of this domain. profiles: NULL, or gets
- * its profiles. */
+/* Says how a domain is drawn. */
+struct domain_draw {
+    uint32_t number;
+    bool kept;                           /* the field may still be that of this domain */
+    const float *depth;                  /* of the scene */
+    struct kiln_volume_domain *profiles; /* which it gets; NULL: none */
+    struct kiln_volume_halfway halfway;
+    bool halfway_only;
+};
+
 static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_draw *draw,
-                        uint32_t number, const float *depth, bool kept,
-                        struct kiln_volume_domain *profiles, struct kiln_error *error)
+                        const struct domain_draw *how, struct kiln_error *error)
 {
+    const uint32_t number = how->number;
     const struct kiln_gas *gas = &draw->pool->gas[number];
-    struct domain domain = {.march.depth = depth};
+    struct domain domain = {
+        .march = {.depth = how->depth, .halfway = how->halfway, .profiles = how->profiles}};
     place_rays(s->scene, &s->scene->gas[number], gas, draw->moment, &domain);
     set_look(s, number, draw->moment->view.clock.x, draw->backdrop, &domain);
     set_lamps(s, number, draw, &domain);
     set_detail(s->scene, &s->scene->gas[number], draw->moment, &domain.march);
-    if (!(kept && s->lit) && !fill_field(s, &domain, gas, error))
+    if (how->halfway_only)
+        domain.march.planes = (struct kiln_volume_planes){.smoke = NULL};
+    if (!(how->kept && s->lit) && !fill_field(s, &domain, gas, !how->halfway_only, error))
         return false;
     if (s->field.count == 0)
         return true;
     struct march_job job = {s, &domain.march, KILN_SIMD_PICK(kiln_volume_march_rows, s->simd),
-                            profiles};
-    if (profiles) {
-        domain.march.profiles = profiles;
-        profiles->bloom = domain.march.bloom;
-    }
+                            how->profiles};
+    if (how->profiles)
+        how->profiles->bloom = domain.march.bloom;
     return kiln_volume_tiles_find(&s->tiles, &domain.march, s->threads, error) &&
            kiln_threads_try(s->threads, tiles_along(s->height), 1, march_tiles, &job, error);
 }
@@ -470,6 +482,39 @@ static void clear_rows(void *context, size_t begin, size_t end, uint32_t worker)
         memset(s->planes.glow + begin * row, 0, floats * sizeof(float));
 }
 
+/* Sets that no gas of the picture is half opaque. */
+static bool begin_halfway(struct kiln_volume_stage *s, struct kiln_image *image,
+                          struct kiln_volume_halfway *halfway, struct kiln_error *error)
+{
+    const size_t pixels = (size_t)s->width * s->height;
+    halfway->depth_m = image ? kiln_image_host(image, KILN_OVERWRITE, error) : NULL;
+    if (!halfway->depth_m)
+        return !image;
+    if (!s->passed)
+        s->passed = kiln_alloc_pages(pixels * sizeof *s->passed);
+    if (!s->passed)
+        return kiln_error_no_memory(error, "drawn gas");
+    halfway->passed = memset(s->passed, 0, pixels * sizeof *s->passed);
+    for (size_t i = 0; i < pixels; i++)
+        halfway->depth_m[i] = 1e9f;
+    return true;
+}
+
+/* Finds where the gas of several domains has become half opaque. This is a march of its own, from
+ * the nearest domain on: they are drawn from the farthest on. */
+static bool find_halfway(struct kiln_volume_stage *s, const struct kiln_volume_draw *draw,
+                         const uint32_t order[], uint32_t count, struct domain_draw how,
+                         struct kiln_error *error)
+{
+    how.halfway_only = true;
+    bool ok = true;
+    for (uint32_t i = count; i-- > 0 && ok;) {
+        how.number = order[i];
+        ok = draw_domain(s, draw, &how, error);
+    }
+    return ok;
+}
+
 bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
                       struct kiln_error *error)
 {
@@ -479,6 +524,9 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
         draw->pool ? kiln_volume_order(stage->scene, moment, draw->pool, order) : 0;
     memset(stage->touched, 0, tile_count(stage->scene));
     stage->profiles.count = 0;
+    struct domain_draw how = {.kept = draw->same && count == 1};
+    if (!begin_halfway(stage, draw->halfway, &how.halfway, error))
+        return false;
     if (count == 0)
         return true;
     if (draw->profiles &&
@@ -486,14 +534,19 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
         return false;
     if (stage->shade)
         kiln_sun_shade_place(stage->shade, moment);
-    const float *depths = kiln_image_host(draw->depth, KILN_READ, error);
-    if (!depths || !kiln_threads_try(stage->threads, stage->height, 64, clear_rows, stage, error))
+    how.depth = kiln_image_host(draw->depth, KILN_READ, error);
+    if (!how.depth ||
+        !kiln_threads_try(stage->threads, stage->height, 64, clear_rows, stage, error))
         return false;
-    const bool kept = draw->same && count == 1;
+    if (draw->halfway && count > 1) {
+        if (!find_halfway(stage, draw, order, count, how, error))
+            return false;
+        how.halfway.depth_m = NULL;
+    }
     for (uint32_t i = 0; i < count; i++) {
-        struct kiln_volume_domain *domain = &stage->profiles.domains[count - 1 - i];
-        if (!draw_domain(stage, draw, order[i], depths, kept, draw->profiles ? domain : NULL,
-                         error))
+        how.number = order[i];
+        how.profiles = draw->profiles ? &stage->profiles.domains[count - 1 - i] : NULL;
+        if (!draw_domain(stage, draw, &how, error))
             return false;
     }
     return true;
@@ -504,81 +557,36 @@ const struct kiln_volume_profiles *kiln_volume_profiles(const struct kiln_volume
     return stage->profiles.count > 0 ? &stage->profiles : NULL;
 }
 
-struct put_job {
-    const struct kiln_volume_stage *stage;
-    enum kiln_volume_light_of light;
-    float *to;
-    bool keep;
-};
-
-/* Calls a function for each pixel of row `y` in tiles with gas. */
-static void put_row(const struct put_job *job, uint32_t y,
-                    void (*put)(const struct put_job *job, size_t first))
+/* Puts the gas to an image by one of the functions of volume_put.h. */
+static bool put(struct kiln_volume_stage *s, struct kiln_volume_put job, struct kiln_image *image,
+                enum kiln_access access,
+                void (*rows)(void *context, size_t begin, size_t end, uint32_t worker),
+                struct kiln_error *error)
 {
-    const struct kiln_volume_stage *s = job->stage;
-    const uint8_t *touched = s->touched + (size_t)(y / VOLUME_TILE) * tiles_along(s->width);
-    for (uint32_t x = 0; x < s->width; x++)
-        if (touched[x / VOLUME_TILE])
-            put(job, 4 * ((size_t)y * s->width + x));
-}
-
-static void put_under(const struct put_job *job, size_t first)
-{
-    const float *smoke = job->stage->planes.smoke + first;
-    const float *flame = job->stage->planes.flame + first;
-    float *to = job->to + first;
-    const float left = 1.0f - to[3];
-    for (int c = 0; c < 3 && job->light == KILN_VOLUME_FLAME; c++)
-        to[c] += flame[c];
-    for (int c = 0; c < 3 && job->light != KILN_VOLUME_FLAME; c++)
-        to[c] += left * (job->light == KILN_VOLUME_ALL ? smoke[c] + flame[c] : smoke[c]);
-    if (job->light != KILN_VOLUME_FLAME)
-        to[3] += left * smoke[3];
-}
-
-static void put_glow(const struct put_job *job, size_t first)
-{
-    const float *glow = job->stage->planes.glow + first;
-    const float hidden = job->stage->planes.smoke[first + 3];
-    float *to = job->to + first;
-    for (int c = 0; c < 3; c++)
-        to[c] = glow[c] + (1.0f - hidden) * to[c];
-    to[3] = hidden + (1.0f - hidden) * to[3];
-}
-
-static void put_under_rows(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    for (size_t y = begin; y < end; y++)
-        put_row(context, (uint32_t)y, put_under);
-}
-
-static void put_glow_rows(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct put_job *job = context;
-    const size_t row = 4 * (size_t)job->stage->width;
-    for (size_t y = begin; y < end; y++) {
-        if (!job->keep)
-            memset(job->to + y * row, 0, row * sizeof *job->to);
-        put_row(job, (uint32_t)y, put_glow);
-    }
+    job.planes = &s->planes;
+    job.touched = s->touched;
+    job.width = s->width;
+    job.to = kiln_image_host(image, access, error);
+    return job.to && kiln_threads_try(s->threads, s->height, 16, rows, &job, error);
 }
 
 bool kiln_volume_add_glow(struct kiln_volume_stage *stage, struct kiln_image *bloom, bool keep,
                           struct kiln_error *error)
 {
-    struct put_job job = {.stage = stage, .keep = keep};
-    job.to = kiln_image_host(bloom, keep ? KILN_READ_WRITE : KILN_OVERWRITE, error);
-    return job.to &&
-           kiln_threads_try(stage->threads, stage->height, 16, put_glow_rows, &job, error);
+    return put(stage, (struct kiln_volume_put){.keep = keep}, bloom,
+               keep ? KILN_READ_WRITE : KILN_OVERWRITE, kiln_volume_put_glow_rows, error);
 }
 
 bool kiln_volume_put_under(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,
                            struct kiln_image *particles, struct kiln_error *error)
 {
-    struct put_job job = {.stage = stage, .light = light};
-    job.to = kiln_image_host(particles, KILN_READ_WRITE, error);
-    return job.to &&
-           kiln_threads_try(stage->threads, stage->height, 16, put_under_rows, &job, error);
+    return put(stage, (struct kiln_volume_put){.light = light}, particles, KILN_READ_WRITE,
+               kiln_volume_put_under_rows, error);
+}
+
+bool kiln_volume_write_layer(struct kiln_volume_stage *stage, struct kiln_image *image,
+                             struct kiln_error *error)
+{
+    return put(stage, (struct kiln_volume_put){.keep = false}, image, KILN_OVERWRITE,
+               kiln_volume_put_layer_rows, error);
 }

@@ -45,6 +45,9 @@ struct kiln_volume_draw {
     struct kiln_image *depth;                  /* of the scene, m */
     bool profiles;                             /* kiln_volume_profiles will be called */
     bool same; /* true: nothing but the view is other than in the last call */
+    /* Gets the depth, m, at which the gas has become half opaque, as far as the scene lets it be
+     * seen; 1e9 where it never does. NULL: not needed */
+    struct kiln_image *halfway;
 };
 
 /* Draws gas to planes that the stage keeps. */
@@ -63,5 +66,10 @@ bool kiln_volume_add_glow(struct kiln_volume_stage *stage, struct kiln_image *bl
 /* Puts gas under an image of particles, premultiplied. */
 bool kiln_volume_put_under(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,
                            struct kiln_image *particles, struct kiln_error *error);
+
+/* Writes the gas alone: the light of flames, dimmed by the gas before them, and the opacity of the
+ * gas as alpha. Both end where the scene does. */
+bool kiln_volume_write_layer(struct kiln_volume_stage *stage, struct kiln_image *image,
+                             struct kiln_error *error);
 
 #endif

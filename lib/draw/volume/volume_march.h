@@ -25,6 +25,12 @@ struct kiln_volume_planes {
     size_t pitch;
 };
 
+/* Holds where the gas of each pixel has become half opaque; rows of the picture's width. */
+struct kiln_volume_halfway {
+    float *depth_m; /* 1e9 where it has not */
+    float *passed;  /* optical depth of the gas of nearer domains */
+};
+
 /* Describes the march through a domain. */
 struct kiln_volume_march {
     const struct kiln_volume_field *field;
@@ -49,7 +55,8 @@ struct kiln_volume_march {
     float world[3][3];  /* rows: from directions in the window to those in the world */
     const float *depth; /* of the scene, m; rows of `width` floats */
     uint32_t width, height;
-    struct kiln_volume_planes planes;
+    struct kiln_volume_planes planes;    /* smoke NULL: there are none */
+    struct kiln_volume_halfway halfway;  /* is written on; depth_m NULL: not needed */
     struct kiln_volume_domain *profiles; /* which are written; NULL: they are not needed */
 };
 

@@ -6,6 +6,7 @@
  * bit. The eight rays are the same at each level of vectors. */
 #include "base/eight.h"
 #include "draw/vector/haze_color.h"
+#include "draw/volume/volume_halfway.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_noise.h"
 #include "draw/volume/volume_record.h"
@@ -25,6 +26,7 @@ struct packet {
     struct eight depth; /* optical depth of the gas so far */
     struct eight smoke[3], flame[3];
     struct eight weight, far; /* of what is seen: its amount, and that times its distance, cells */
+    struct halfway halfway;   /* set if the march asks for it */
 };
 
 /* Returns the phase function of Henyey and Greenstein in parts of an even one. */
@@ -342,6 +344,16 @@ SIMD void shade(const struct kiln_volume_march *m, struct packet *p, const struc
     }
 }
 
+/* Adds the gas of a step to rays. tints: NULL without colours. */
+SIMD void add_step(const struct kiln_volume_march *m, struct packet *p, const struct places *at,
+                   const struct eight values[VOLUME_CELL], const struct eight *tints)
+{
+    const struct eight before = p->depth;
+    shade(m, p, at, values, tints);
+    if (m->halfway.depth_m)
+        halfway_add(&(struct halfway_step){before, p->depth, at->middle, at->length}, &p->halfway);
+}
+
 /* Ends rays that gas hides what is behind from. Returns whether any ray goes on after a step. */
 SIMD bool end_rays(const struct kiln_volume_march *m, struct packet *p, float step)
 {
@@ -494,7 +506,7 @@ SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volum
             sample_tints(m->field, &at, tints);
         if (detail)
             add_detail(m, &at, values, colored ? tints : NULL);
-        shade(m, p, &at, values, colored ? tints : NULL);
+        add_step(m, p, &at, values, colored ? tints : NULL);
         more = end_rays(m, p, step);
         step += 1.0f;
     }
@@ -516,8 +528,14 @@ static void march_packet(const struct kiln_volume_march *m, const struct kiln_vo
     }
     if (!make_packet(m, x, y, &p))
         return;
+    if (m->halfway.depth_m)
+        halfway_begin(m, x, y, &p.halfway);
     const float end = march_rays(m, tile, &p, profile ? &record : NULL);
     if (end < 0.0f)
+        return;
+    if (m->halfway.depth_m)
+        halfway_store(m, &p.halfway, p.metre, p.depth, x, y);
+    if (!m->planes.smoke)
         return;
     if (m->haze)
         find_veil(m, &p, &veiled);

@@ -1,0 +1,62 @@
+/* This header finds where the gas of eight rays becomes half opaque (kiln_volume_halfway). The gas
+ * of a step is even, so the place within a step has a closed form. */
+#ifndef KILN_DRAW_VOLUME_VOLUME_HALFWAY_H
+#define KILN_DRAW_VOLUME_VOLUME_HALFWAY_H
+
+#include "base/eight.h"
+#include "draw/volume/volume_march.h"
+
+/* The optical depth of gas that is half opaque: the natural logarithm of 2. */
+#define HALF_OPAQUE 0.693147181f
+
+/* Holds where rays are half opaque. */
+struct halfway {
+    struct eight depth; /* optical depth of this domain at which all gas is half opaque */
+    struct eight place; /* from the eye, cells; 0: nowhere */
+};
+
+/* Holds the gas of rays that a step adds. */
+struct halfway_step {
+    struct eight before, behind; /* optical depth of this domain before and behind it */
+    struct eight middle, length; /* of the step, cells */
+};
+
+/* Begins with eight pixels of row y, from x on. */
+SIMD_ONCE void halfway_begin(const struct kiln_volume_march *m, uint32_t x, uint32_t y,
+                             struct halfway *h)
+{
+    float depth[8] = {0};
+    for (uint32_t k = 0; k < 8 && x + k < m->width; k++)
+        depth[k] = HALF_OPAQUE - m->halfway.passed[(size_t)y * m->width + x + k];
+    *h = (struct halfway){.depth = eight_load(depth)};
+}
+
+SIMD_ONCE void halfway_add(const struct halfway_step *step, struct halfway *h)
+{
+    EIGHT_EACH(k)
+    {
+        const vf from = step->before.part[k], to = step->behind.part[k], half = h->depth.part[k];
+        const vf part = (half - from) / vf_max(to - from, vf_all(1e-20f));
+        const vf place = step->middle.part[k] + step->length.part[k] * (part - 0.5f);
+        h->place.part[k] = vf_select((from < half) & (half <= to), place, h->place.part[k]);
+    }
+}
+
+/* Stores the depths of the pixels, and adds the optical depth of this domain. a_metre: cells along
+ * rays for a metre of depth. */
+SIMD_ONCE void halfway_store(const struct kiln_volume_march *m, const struct halfway *h,
+                             struct eight a_metre, struct eight depth, uint32_t x, uint32_t y)
+{
+    _Alignas(32) float place[8], metre[8], passed[8];
+    eight_store(place, h->place);
+    eight_store(metre, a_metre);
+    eight_store(passed, depth);
+    for (uint32_t k = 0; k < 8 && x + k < m->width; k++) {
+        const size_t at = (size_t)y * m->width + x + k;
+        if (place[k] > 0.0f)
+            m->halfway.depth_m[at] = place[k] / metre[k];
+        m->halfway.passed[at] += passed[k];
+    }
+}
+
+#endif
