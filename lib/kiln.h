@@ -356,13 +356,15 @@ enum kiln_sample_type {
 };
 /* A layer of a drawn frame. "display" has the samples of a PNG: sRGB, RGBA, straight alpha. The
  * others have those of a layer of an EXR, linear premultiplied floats: "beauty", "depth", "fire",
- * "smoke", "bloom". Rows go from the top. The memory is valid during the callback that gets the
- * layer, or as long as the kiln_frame that it was taken from. */
+ * "smoke", "bloom", and of scenes with gas "gas.density", "gas.emission", "gas.depth": its opacity,
+ * the light of its flames, and the depth at which it is half opaque. Rows go from the top. The
+ * memory is valid during the callback that gets the layer, or as long as the kiln_frame that it was
+ * taken from. */
 struct kiln_frame_layer {
     size_t size;
     const char *layer;                /* its name */
     uint32_t frame;                   /* number of the frame in the clip */
-    uint32_t width, height, channels; /* channels: 4; "depth" has 1 */
+    uint32_t width, height, channels; /* channels: 4; depths and "gas.density" have 1 */
     enum kiln_sample_type samples;
     size_t row_bytes; /* from one row to the next */
     const void *pixels;
@@ -433,7 +435,8 @@ struct kiln_render_params {
      * kiln_flipbook_sample chose. NULL: no flipbook. */
     const struct kiln_flipbook *flipbook;
     /* `picture` gets the layers of each frame that are named here, in this order ("display" when
-     * none is named), whether or not an output is written. KILN_USAGE for an unknown name. */
+     * none is named), whether or not an output is written. KILN_USAGE for an unknown name, and for
+     * a layer of gas in a scene without gas. */
     const char *const *layers;
     size_t layer_count;
     void (*picture)(void *user, const struct kiln_frame_layer *layer);

@@ -251,7 +251,9 @@ static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error
            (!s->layers || (kiln_shutter_add(s->shutter, KILN_SHUTTER_FIRE, &s->fire_color, weight,
                                             first, error) &&
                            kiln_shutter_add(s->shutter, KILN_SHUTTER_SMOKE, smoke_layer(s), weight,
-                                            first, error)));
+                                            first, error) &&
+                           (!s->volume || kiln_shutter_add(s->shutter, KILN_SHUTTER_GAS,
+                                                           &s->gas_color, weight, first, error))));
 }
 
 /* Sets the moment to an instant and its particles, and lights them. Moments of a frame at the same
@@ -298,19 +300,23 @@ static bool blends_with_gas(const struct kiln_stages *s)
     return systems != 0 && kiln_particles_blends_with_gas(s->particles);
 }
 
-/* Draws gas, and its glow, before the particles. */
-static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, struct kiln_error *error)
+/* Draws gas, and its glow, before the particles. moment: its number. */
+static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, uint32_t moment,
+                     struct kiln_error *error)
 {
+    const bool last = moment + 1 == kiln_scene_moment_count(s->scene);
     const struct kiln_volume_draw draw = {.moment = &s->moment,
                                           .pool = pool,
                                           .backdrop = kiln_backdrop_block(s->backdrop),
                                           .lighting = &s->light,
                                           .depth = &s->scene_depth,
                                           .profiles = blends_with_gas(s),
-                                          .same = s->same_instant};
+                                          .same = s->same_instant,
+                                          .halfway = s->layers && last ? &s->gas_depth : NULL};
     return RUN_PASS(
         s, KILN_PASS_gas,
         kiln_volume_draw(s->volume, &draw, error) &&
+            (!s->layers || kiln_volume_write_layer(s->volume, &s->gas_color, error)) &&
             (!s->glow || kiln_volume_add_glow(s->volume, &s->bloom_color, s->solids, error)),
         error);
 }
@@ -346,7 +352,7 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
     uint32_t solids = 0;
     if ((s->volume && !RUN_PASS(s, KILN_PASS_gas, fetch_gas(pool, error), error)) ||
         !fill_moment(s, before, pool, instant, moment == 0, error) ||
-        !draw_scenery(s, &solids, error) || (s->volume && !draw_gas(s, pool, error)))
+        !draw_scenery(s, &solids, error) || (s->volume && !draw_gas(s, pool, moment, error)))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
@@ -377,12 +383,34 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
                     error);
 }
 
-static const char *const LAYER_NAMES[] = {"beauty", "depth", "fire", "smoke", "bloom"};
-static const uint32_t LAYER_CHANNELS[] = {4, 1, 4, 4, 4};
+/* The layers of a frame. Those from LAYER_DENSITY on are layers of gas. */
+enum {
+    LAYER_BEAUTY,
+    LAYER_DEPTH,
+    LAYER_FIRE,
+    LAYER_SMOKE,
+    LAYER_BLOOM,
+    LAYER_DENSITY,
+    LAYER_EMISSION,
+    LAYER_HALFWAY,
+    LAYER_COUNT
+};
+static const char *const LAYER_NAMES[LAYER_COUNT] = {
+    [LAYER_BEAUTY] = "beauty",
+    [LAYER_DEPTH] = "depth",
+    [LAYER_FIRE] = "fire",
+    [LAYER_SMOKE] = "smoke",
+    [LAYER_BLOOM] = "bloom",
+    [LAYER_DENSITY] = KILN_LAYER_GAS_DENSITY,
+    [LAYER_EMISSION] = "gas.emission",
+    [LAYER_HALFWAY] = "gas.depth",
+};
+static const uint32_t LAYER_CHANNELS[LAYER_COUNT] = {4, 1, 4, 4, 4, 1, 4, 1};
 
-uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS])
+uint32_t kiln_stages_layers(bool gas, const char *names[KILN_MAX_LAYERS],
+                            uint32_t channels[KILN_MAX_LAYERS])
 {
-    uint32_t count = sizeof LAYER_CHANNELS / sizeof *LAYER_CHANNELS;
+    const uint32_t count = gas ? LAYER_COUNT : LAYER_DENSITY;
     for (uint32_t i = 0; i < count; i++) {
         names[i] = LAYER_NAMES[i];
         channels[i] = LAYER_CHANNELS[i];
@@ -405,23 +433,60 @@ static bool read_layer(struct kiln_stages *s, struct kiln_image *image, bool dra
     return kiln_threads_copy(s->threads, layer->pixels, pixels, floats * sizeof(float), error);
 }
 
+/* The image of gas, and the layers that it is parted into. */
+struct gas_layers {
+    const float *gas;
+    float *density, *emission;
+};
+
+static void part_gas(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct gas_layers *layers = context;
+    for (size_t i = begin; i < end; i++) {
+        const float *pixel = layers->gas + 4 * i;
+        layers->density[i] = pixel[3];
+        for (size_t c = 0; c < 3; c++)
+            layers->emission[4 * i + c] = pixel[c];
+        layers->emission[4 * i + 3] = 0.0f; /* light that hides nothing, as the layer `fire` */
+    }
+}
+
+static bool read_gas_layers(struct kiln_stages *s, struct kiln_picture *picture,
+                            struct kiln_error *error)
+{
+    struct kiln_image *image =
+        s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_GAS) : &s->gas_color;
+    struct gas_layers layers = {.gas = kiln_image_host(image, KILN_READ, error),
+                                .density = picture->layers[LAYER_DENSITY].pixels,
+                                .emission = picture->layers[LAYER_EMISSION].pixels};
+    const size_t pixels = (size_t)image->width * image->height;
+    return layers.gas &&
+           kiln_threads_try(s->threads, pixels, (size_t)1 << 14, part_gas, &layers, error) &&
+           read_layer(s, &s->gas_depth, true, &picture->layers[LAYER_HALFWAY], error);
+}
+
 static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
                         struct kiln_error *error)
 {
-    struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color, smoke_layer(s),
-                                    s->bloom_source};
+    struct kiln_image *sources[] = {
+        [LAYER_BEAUTY] = NULL,           [LAYER_DEPTH] = &s->scene_depth,
+        [LAYER_FIRE] = &s->fire_color,   [LAYER_SMOKE] = smoke_layer(s),
+        [LAYER_BLOOM] = s->bloom_source,
+    };
     if (s->shutter) { /* depths have no mean: those of the last moment are those of a pinhole */
-        sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
-        sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
+        sources[LAYER_FIRE] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
+        sources[LAYER_SMOKE] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
     }
-    if (!kiln_composite_take_beauty(s->composite, &picture->layers[0].pixels, error))
+    if (!kiln_composite_take_beauty(s->composite, &picture->layers[LAYER_BEAUTY].pixels, error))
         return false;
-    for (uint32_t i = 1; i < picture->layer_count; i++) {
-        const bool drawn_anew = !s->shutter && i > 1; /* depths may be kept for the next frame */
+    for (uint32_t i = LAYER_DEPTH; i < LAYER_DENSITY && i < picture->layer_count; i++) {
+        /* depths may be kept for the next frame */
+        const bool drawn_anew = !s->shutter && i != LAYER_DEPTH;
         if (!read_layer(s, sources[i], drawn_anew, &picture->layers[i], error))
             return false;
     }
-    return true;
+    return picture->layer_count <= LAYER_DENSITY || read_gas_layers(s, picture, error);
 }
 
 static bool read_picture(struct kiln_stages *s, struct kiln_picture *picture,

@@ -55,9 +55,12 @@ struct kiln_stages {
     struct kiln_image particle_color; /* all particles (merged), or smoke alone (separate) */
     struct kiln_image fire_color;     /* for separate composition and for layers */
     struct kiln_image smoke_color;    /* for layers unless the composition is separate */
-    struct kiln_image bloom_color;    /* what glows in a moment */
-    struct kiln_image *bloom_source;  /* what the bloom stage blurs: bloom_color, or its mean over a
-                                       * frame's moments */
+    /* for layers, if there is gas: the light of its flames with its opacity; the depth at which it
+     * has become half opaque */
+    struct kiln_image gas_color, gas_depth;
+    struct kiln_image bloom_color;   /* what glows in a moment */
+    struct kiln_image *bloom_source; /* what the bloom stage blurs: bloom_color, or its mean over a
+                                      * frame's moments */
     struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 
@@ -103,8 +106,9 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
 bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
                       struct kiln_error *error);
 
-/* Writes the names and channels of a frame's layers for kiln_picture_create. Returns the number of
- * layers. */
-uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS]);
+/* Writes the names and channels of a frame's layers for kiln_picture_create, with those of gas or
+ * without them; a scene has them if kiln_volume_exists. Returns the number of layers. */
+uint32_t kiln_stages_layers(bool gas, const char *names[KILN_MAX_LAYERS],
+                            uint32_t channels[KILN_MAX_LAYERS]);
 
 #endif

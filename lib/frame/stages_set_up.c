@@ -171,6 +171,9 @@ static bool init_volume(struct kiln_stages *s, struct kiln_error *error)
 {
     if (!kiln_volume_exists(s->scene))
         return true;
+    const uint32_t w = s->scene->width, h = s->scene->height;
+    kiln_image_init(&s->gas_color, s->device, w, h, GL_RGBA32F, "gas");
+    kiln_image_init(&s->gas_depth, s->device, w, h, GL_R32F, "depth of gas");
     s->volume = kiln_volume_create(&s->moment, s->glow, s->threads, error);
     return s->volume != NULL;
 }
@@ -305,7 +308,8 @@ void kiln_stages_finish(struct kiln_stages *stages)
     struct kiln_image *images[] = {&stages->backdrop_color, &stages->backdrop_depth,
                                    &stages->scene_color,    &stages->scene_depth,
                                    &stages->particle_color, &stages->fire_color,
-                                   &stages->smoke_color,    &stages->bloom_color};
+                                   &stages->smoke_color,    &stages->bloom_color,
+                                   &stages->gas_color,      &stages->gas_depth};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         kiln_image_finish(images[i]);
     kiln_atlas_finish(&stages->atlas);

@@ -438,7 +438,7 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
                                           .log = params->log,
                                           .caller = kiln_stop_caller(&job->stop)};
     struct kiln_output_needs needs = {.bits = 0};
-    if (!choose_frames(job, error) || !kiln_views_need(params, &needs, error))
+    if (!choose_frames(job, error) || !kiln_views_need(job->scene, params, &needs, error))
         return false;
     job->loop = kiln_loop_create(job->device, job->scene, &loop, error);
     if (!job->loop)
@@ -449,7 +449,8 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     if (!job->draws)
         return true;
     needs = job->output ? kiln_output_needs(job->output) : (struct kiln_output_needs){.bits = 8};
-    if (!kiln_views_need(params, &needs, error) || !kiln_loop_set_up(job->loop, needs, error))
+    if (!kiln_views_need(job->scene, params, &needs, error) ||
+        !kiln_loop_set_up(job->loop, needs, error))
         return false;
     if (params->states &&
         !(job->states = kiln_states_open(params->states, job->scene,

@@ -20,11 +20,27 @@ static const char *const *wanted(const struct kiln_render_params *params, size_t
     return params->layer_count > 0 ? params->layers : usual;
 }
 
-static bool refuse(const char *name, struct kiln_error *error)
+static bool is_layer(bool gas, const char *name)
+{
+    const char *names[KILN_MAX_LAYERS];
+    uint32_t channels[KILN_MAX_LAYERS];
+    const uint32_t count = kiln_stages_layers(gas, names, channels);
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool refuse(const struct kiln_scene *scene, const char *name, struct kiln_error *error)
 {
     const char *names[KILN_MAX_LAYERS + 1] = {DISPLAY};
     uint32_t channels[KILN_MAX_LAYERS];
-    const uint32_t count = 1 + kiln_stages_layers(names + 1, channels);
+    const uint32_t count = 1 + kiln_stages_layers(kiln_volume_exists(scene), names + 1, channels);
+    if (is_layer(true, name))
+        return kiln_error_set(error, KILN_USAGE,
+                              "the layer '%s' needs gas, of which '%s' draws none", name,
+                              scene->name);
     const char *nearest = kiln_text_nearest(name, names, count);
     struct kiln_text all = {0};
     for (uint32_t i = 0; i < count; i++)
@@ -36,20 +52,8 @@ static bool refuse(const char *name, struct kiln_error *error)
     return false;
 }
 
-static bool is_layer(const char *name)
-{
-    const char *names[KILN_MAX_LAYERS];
-    uint32_t channels[KILN_MAX_LAYERS];
-    const uint32_t count = kiln_stages_layers(names, channels);
-    for (uint32_t i = 0; i < count; i++) {
-        if (strcmp(name, names[i]) == 0)
-            return true;
-    }
-    return false;
-}
-
-bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output_needs *needs,
-                     struct kiln_error *error)
+bool kiln_views_need(const struct kiln_scene *scene, const struct kiln_render_params *params,
+                     struct kiln_output_needs *needs, struct kiln_error *error)
 {
     size_t count;
     const char *const *names = wanted(params, &count);
@@ -58,8 +62,8 @@ bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output
         const bool beauty = strcmp(names[i], BEAUTY) == 0;
         if (strcmp(names[i], DISPLAY) == 0)
             needs->bits = needs->bits > 0 ? needs->bits : 8;
-        else if (!is_layer(names[i]))
-            return refuse(names[i], error);
+        else if (!is_layer(kiln_volume_exists(scene), names[i]))
+            return refuse(scene, names[i], error);
         else if (!beauty || needs->layers == KILN_LAYERS_NONE)
             needs->layers = beauty ? KILN_LAYERS_BEAUTY : KILN_LAYERS_ALL;
     }

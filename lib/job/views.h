@@ -6,9 +6,9 @@
 #include "output/output.h"
 
 /* Adds the layers that the caller wants to the needs of a frame. KILN_USAGE for an unknown layer,
- * with the nearest name. */
-bool kiln_views_need(const struct kiln_render_params *params, struct kiln_output_needs *needs,
-                     struct kiln_error *error);
+ * with the nearest name, and for one of gas in a scene without gas. */
+bool kiln_views_need(const struct kiln_scene *scene, const struct kiln_render_params *params,
+                     struct kiln_output_needs *needs, struct kiln_error *error);
 
 /* Calls the caller's callback with each wanted layer, in the caller's order. */
 void kiln_views_show(const struct kiln_render_params *params, const struct kiln_picture *picture);

@@ -1,7 +1,7 @@
 /* Writes frames as OpenEXR files by OpenEXR's C core. A file has one part with the layers as
- * channels: R, G, B, A for the beauty, "fire.R" and so on for the others, Z for the depth. Pixels
- * are linear, premultiplied and ZIP-compressed in blocks of 16 lines. Alpha and colour are half or
- * float as asked; depth is always float. */
+ * channels: R, G, B, A for the beauty, "fire.R" and so on for the others, Z for the depth, and
+ * "gas.density.Y", a grey picture. Pixels are linear, premultiplied and ZIP-compressed in blocks of
+ * 16 lines. Alpha, colour and grey are half or float as asked; depths are always float. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,7 +133,8 @@ static uint32_t list_channels(const struct exr_encoder *encoder, const struct ki
     uint32_t count = 0;
     for (uint32_t i = 0; i < picture->layer_count; i++) {
         const struct kiln_layer *layer = &picture->layers[i];
-        bool depth = layer->channels == 1;
+        bool grey = layer->channels == 1 && strcmp(layer->name, KILN_LAYER_GAS_DENSITY) == 0;
+        bool depth = layer->channels == 1 && !grey;
         bool bare = strcmp(layer->name, depth ? "depth" : "beauty") == 0;
         for (uint32_t c = 0; c < layer->channels && c < 4; c++) {
             struct channel *channel = &channels[count++];
@@ -141,7 +142,10 @@ static uint32_t list_channels(const struct exr_encoder *encoder, const struct ki
             channel->type =
                 depth || encoder->params->exr_bits == 32 ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF;
             snprintf(channel->name, sizeof channel->name, "%.29s%s%c", bare ? "" : layer->name,
-                     bare ? "" : ".", depth ? 'Z' : "RGBA"[c]);
+                     bare ? "" : ".",
+                     depth  ? 'Z'
+                     : grey ? 'Y'
+                            : "RGBA"[c]);
         }
     }
     return count;
@@ -224,11 +228,9 @@ static exr_result_t place_channels(struct exr_encoder *encoder, const struct kil
         const size_t rows = channel->type == EXR_PIXEL_HALF ? 1 : 2;
         channel->row = layout->rows;
         layout->rows += rows;
-        if (channel->type != EXR_PIXEL_FLOAT)
-            continue;
-        if (layout->float_rows == 0)
-            layout->float_from = channel->row;
-        layout->float_rows = layout->rows - layout->float_from;
+        for (size_t row = channel->row; row < layout->rows && channel->type == EXR_PIXEL_FLOAT;
+             row++)
+            layout->float_rows |= UINT64_C(1) << row;
     }
     return layout->rows > 0 && layout->row_bytes > 0 ? EXR_ERR_SUCCESS : EXR_ERR_INVALID_ARGUMENT;
 }

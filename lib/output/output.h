@@ -10,10 +10,13 @@
 
 enum { KILN_MAX_LAYERS = 8 };
 
+/* The one layer of a single channel that is no depth. */
+#define KILN_LAYER_GAS_DENSITY "gas.density"
+
 /* A float layer of a frame; linear, premultiplied, rows from the top. */
 struct kiln_layer {
     const char *name;  /* static text: "beauty", "depth", "fire"... */
-    uint32_t channels; /* 1 (depth, Z) or 4 (RGBA) */
+    uint32_t channels; /* 1 (a depth, Z, or KILN_LAYER_GAS_DENSITY) or 4 (RGBA) */
     float *pixels;
 };
 

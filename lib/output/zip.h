@@ -31,8 +31,9 @@ struct kiln_zip_scratch {
 /* Describes a chunk: two planes of bytes, which have the same number of lines. A line has a number
  * of rows, one or more for each channel. */
 struct kiln_zip_layout {
-    size_t row_bytes, rows;        /* bytes of a row; rows of a line of a plane */
-    size_t float_from, float_rows; /* rows of a line that have floats; the others have halves */
+    size_t row_bytes, rows; /* bytes of a row; rows of a line of a plane */
+    uint64_t float_rows; /* a bit for each row of a line, at most 64: set where it has floats, not
+                            halves */
 };
 
 /* Returns the bytes that kiln_zip may write for `size` bytes. */

@@ -313,7 +313,7 @@ static void compress_plane(struct search *s, size_t begin, const struct kiln_zip
     s->count = 0;
     for (size_t row = begin; row < s->end; row += layout->row_bytes) {
         const size_t row_end = row + layout->row_bytes;
-        const bool floats = number - layout->float_from < layout->float_rows;
+        const bool floats = layout->float_rows >> number & 1;
         while (!(floats   ? search_dense(s, row, row_end)
                  : uneven ? search_sparse(s, row, row_end)
                           : search_usual(s, row, row_end))) {

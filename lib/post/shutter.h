@@ -12,6 +12,7 @@ enum kiln_shutter_sum {
     KILN_SHUTTER_BLOOM,
     KILN_SHUTTER_FIRE,
     KILN_SHUTTER_SMOKE,
+    KILN_SHUTTER_GAS,
     KILN_SHUTTER_SUM_COUNT
 };
 

@@ -344,9 +344,9 @@ def render(scene: Scene, *, frames: Frames = None, size: Optional[tuple[int, int
     """Returns a job that draws one frame for each turn of a loop: `for frame in kiln.render(scene): ...`.
 
     `frames` are a number, a range or ascending numbers, or None for all; `size` is (width, height) in pixels in
-    place of the scene's. `layers` are "display", "beauty", "depth", "fire", "smoke", "bloom"; () gives frames
-    without pixels. `output` also writes a file, or files by a pattern such as "frame_####.png". `device` is an
-    open :class:`Device`, or the value `wanted` of one to open. `states` is a folder of :func:`bake`; the job starts
+    place of the scene's. `layers` are "display", "beauty", "depth", "fire", "smoke", "bloom" and, of scenes with
+    gas, "gas.density", "gas.emission", "gas.depth"; () gives frames without pixels. `output` also writes a file, or
+    files by a pattern such as "frame_####.png". `device` is an open :class:`Device`, or the value `wanted` of one to open. `states` is a folder of :func:`bake`; the job starts
     from the latest state there that serves it. `techniques` are {"stage": "name"}; `threads` 0 takes one a core;
     `shard` (i, n) draws the i-th of n shares, from 0. `png_bits` are 8 (the default) or 16; `png_effort`
     is "fast" (the default) or "small"; `exr_bits` are 16 (the default) or 32; `quality` of videos and JPEG is 0 to 100

@@ -45,7 +45,7 @@ struct kiln_picture *gas_frame_draw(struct kiln_device *device, const struct gas
     struct kiln_threads *threads = kiln_threads_create(2);
     const char *names[KILN_MAX_LAYERS];
     uint32_t channels[KILN_MAX_LAYERS];
-    const uint32_t count = kiln_stages_layers(names, channels);
+    const uint32_t count = kiln_stages_layers(frame->domain, names, channels);
     struct kiln_picture *picture =
         kiln_picture_create(scene->width, scene->height, 8, names, channels, count, &error);
     struct kiln_pool pool = {0};

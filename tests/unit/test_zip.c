@@ -122,8 +122,8 @@ static void chunks_come_back(void **state)
                 const struct kiln_zip_layout layout = {
                     .row_bytes = widths[i],
                     .rows = rows[k],
-                    .float_from = rows[k] / 3,
-                    .float_rows = k % 3, /* also none, and beyond the end */
+                    /* also none, some that are apart, and beyond the end */
+                    .float_rows = (k % 3) * UINT64_C(0x20205) << rows[k] / 3,
                 };
                 check_kind(kind, &layout, lines[(i + k) % 3]);
             }
@@ -135,8 +135,7 @@ static void chunks_come_back(void **state)
 static void large_chunks_come_back(void **state)
 {
     (void)state;
-    const struct kiln_zip_layout deep = {
-        .row_bytes = 40000, .rows = 2, .float_from = 0, .float_rows = 2};
+    const struct kiln_zip_layout deep = {.row_bytes = 40000, .rows = 2, .float_rows = 3};
     const size_t size = 2 * 16 * deep.rows * deep.row_bytes;
     assert_true(check_kind(SHORT_REPEATS, &deep, 16) < size * 3 / 5);
     const struct kiln_zip_layout wide = {.row_bytes = 40000, .rows = 4};
