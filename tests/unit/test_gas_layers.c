@@ -245,7 +245,7 @@ static void threads_and_vectors_make_no_difference(void **state)
 
 /* ---- jobs ------------------------------------------------------------------------------------ */
 
-enum { WIDTH = 48, HEIGHT = 32, MOMENTS = 4, LAYERS = 3, FRAME = 12 };
+enum { WIDTH = 48, HEIGHT = 32, MOMENTS = 4, LAYERS = 5, FRAME = 12 };
 
 /* Smoke and flames before a camera that moves sideways. */
 static const char SCENE[] = "kiln: 1\n"
@@ -262,7 +262,8 @@ static const char SCENE[] = "kiln: 1\n"
                             "         velocity: [0, 1, 0]}\n"
                             "    look: {extinction: 30, intensity: 900}\n";
 
-static const char *const NAMES[LAYERS] = {"gas.density", "gas.emission", "gas.depth"};
+static const char *const NAMES[LAYERS] = {"gas.density", "gas.emission", "gas.depth", "beauty",
+                                          "smoke"};
 
 struct seen {
     uint32_t count;
@@ -273,7 +274,7 @@ static void see(void *user, const struct kiln_frame_layer *view)
 {
     struct seen *seen = user;
     assert_string_equal(view->layer, NAMES[seen->count]);
-    assert_int_equal(view->channels, seen->count == 1 ? 4 : 1);
+    assert_int_equal(view->channels, seen->count % 2 == 0 && seen->count < 4 ? 1 : 4);
     assert_true(view->samples == KILN_SAMPLES_FLOAT);
     memcpy(seen->layers[seen->count++], view->pixels, view->row_bytes * HEIGHT);
 }
@@ -333,6 +334,56 @@ static void moments_are_averaged_but_for_depths(void **state)
     assert_true(opaque > 0.6f && bright > 0.5f && halves > 15);
 }
 
+/* Gas has no moments between steps: those within a step show the gas at its end. */
+static void moments_within_a_step_show_its_gas(void **state)
+{
+    (void)state;
+    static const char *const open[] = {"camera.position=[0, 0.5, 4]", "simulation.rate=60",
+                                       "camera.shutter.samples=4", NULL};
+    static const char *const fast[] = {"camera.position=[0, 0.5, 4]", "simulation.rate=60",
+                                       "output.fps=60", NULL};
+    static struct seen blurred, sharp[2];
+    struct kiln_error error = {0};
+    if (!render(SCENE, open, FRAME, &blurred, &error) ||
+        !render(SCENE, fast, 2 * FRAME, &sharp[0], &error) ||
+        !render(SCENE, fast, 2 * FRAME + 1, &sharp[1], &error))
+        fail_msg("%s", error.message);
+    double changes = 0.0;
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+        const double first = (double)sharp[0].layers[0][i], second = (double)sharp[1].layers[0][i];
+        assert_near((double)blurred.layers[0][i], 0.25 * first + 0.75 * second, 1e-5);
+        changes = fmax(changes, fabs(first - second));
+    }
+    assert_true(changes > 0.02);
+}
+
+/* A scene whose gas has the picture to itself. */
+static void the_layers_make_the_picture(void **state)
+{
+    (void)state;
+    static const char *const modes[] = {"post.compose=merged", "post.compose=separate",
+                                        "post.compose=alpha", "post.compose=oit"};
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        static struct seen seen;
+        const char *const overrides[] = {modes[i], "backdrop.transparent=true",
+                                         "backdrop.floor=none", "post.bloom.kind=none", NULL};
+        struct kiln_error error = {0};
+        if (!render(SCENE, overrides, FRAME, &seen, &error))
+            fail_msg("%s", error.message);
+        float brightest = 0.0f;
+        for (size_t k = 0; k < 4 * (size_t)WIDTH * HEIGHT; k++) {
+            const float *emission = seen.layers[1], *beauty = seen.layers[3];
+            const float *smoke = seen.layers[4];
+            if (k % 4 == 3)
+                assert_true(beauty[k] == seen.layers[0][k / 4] && smoke[k] == beauty[k]);
+            else
+                assert_true(beauty[k] == smoke[k] + emission[k]);
+            brightest = fmaxf(brightest, emission[k]);
+        }
+        assert_true(brightest > 0.5f);
+    }
+}
+
 static void scenes_without_gas_have_no_such_layers(void **state)
 {
     (void)state;
@@ -361,6 +412,8 @@ int main(void)
         cmocka_unit_test(layers_change_no_bit_of_the_picture),
         cmocka_unit_test(threads_and_vectors_make_no_difference),
         cmocka_unit_test(moments_are_averaged_but_for_depths),
+        cmocka_unit_test(moments_within_a_step_show_its_gas),
+        cmocka_unit_test(the_layers_make_the_picture),
         cmocka_unit_test(scenes_without_gas_have_no_such_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,7 @@ struct kiln_between {
     const struct kiln_moment *moment;
     struct kiln_threads *threads;
     GLuint program, spins_program; /* 0: the host computes; spins_program: for systems with spins */
-    struct kiln_pool pool;         /* the result; its canvases are borrowed */
+    struct kiln_pool pool;         /* the result; its canvases and its gas are borrowed */
 };
 
 static bool make_programs(struct kiln_between *between, struct kiln_error *error)
@@ -67,6 +67,7 @@ void kiln_between_destroy(struct kiln_between **between)
     if (b->spins_program)
         glDeleteProgram(b->spins_program);
     b->pool.canvas_count = 0;
+    b->pool.gas_count = 0;
     kiln_pool_finish(&b->pool);
     free(b);
     *between = NULL;
