@@ -25,7 +25,7 @@ struct particle_pass {
     bool keep_bloom; /* do not clear the bloom image */
     bool sum_alpha, fire_covers;
     bool by_fragment;
-    float smoke, flame; /* the light of gas that particles cover: struct kiln_tile_gas */
+    float smoke, flame, glow; /* the light of gas that particles cover: struct kiln_tile_gas */
     /* NULL, or for the colour of covering and of additive particles alone; become NULL if they need
      * passes of their own */
     struct kiln_image *covering, *added;
@@ -124,7 +124,8 @@ static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, ui
                                       .height = s->scene->height,
                                       .scale = 1.0f,
                                       .smoke = pass->smoke,
-                                      .flame = pass->flame};
+                                      .flame = pass->flame,
+                                      .glow = pass->glow};
     struct kiln_particles_draw draw = {
         .moment = &s->moment,
         .entries = &s->entries,
@@ -179,6 +180,7 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
                                 .by_fragment = by_fragment,
                                 .smoke = 1.0f,
                                 .flame = 1.0f,
+                                .glow = 1.0f,
                                 .covering = s->layers ? &s->smoke_color : NULL,
                                 .added = s->layers ? &s->fire_color : NULL};
     if (!draw_particles(s, &all, drawn, error))
@@ -215,8 +217,13 @@ static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_er
                                  .keep_bloom = true,
                                  .sum_alpha = true};
     uint32_t smoke_count = 0, fire_count = 0;
-    bool ok = draw_particles(s, &smoke, &smoke_count, error) &&
-              draw_particles(s, &fire, &fire_count, error);
+    bool ok =
+        draw_particles(s, &smoke, &smoke_count, error) &&
+        (!s->volume || !s->glow ||
+         RUN_PASS(s, KILN_PASS_gas,
+                  kiln_volume_add_glow(s->volume, KILN_VOLUME_SHINE, &s->bloom_color, true, error),
+                  error)) &&
+        draw_particles(s, &fire, &fire_count, error);
     *drawn = smoke_count + fire_count;
     return ok;
 }
@@ -300,10 +307,13 @@ static bool blends_with_gas(const struct kiln_stages *s)
     return systems != 0 && kiln_particles_blends_with_gas(s->particles);
 }
 
-/* Draws gas, and its glow, before the particles. moment: its number. */
+/* Draws gas, and its glow, before the particles. With `separate` the glow of flames comes later, as
+ * that of fire. moment: its number. */
 static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, uint32_t moment,
                      struct kiln_error *error)
 {
+    const enum kiln_volume_light_of glow =
+        s->scene->post.compose == KILN_COMPOSE_SEPARATE ? KILN_VOLUME_SMOKE : KILN_VOLUME_ALL;
     const bool last = moment + 1 == kiln_scene_moment_count(s->scene);
     const struct kiln_volume_draw draw = {.moment = &s->moment,
                                           .pool = pool,
@@ -317,7 +327,7 @@ static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, uint32
         s, KILN_PASS_gas,
         kiln_volume_draw(s->volume, &draw, error) &&
             (!s->layers || kiln_volume_write_layer(s->volume, &s->gas_color, error)) &&
-            (!s->glow || kiln_volume_add_glow(s->volume, &s->bloom_color, s->solids, error)),
+            (!s->glow || kiln_volume_add_glow(s->volume, glow, &s->bloom_color, s->solids, error)),
         error);
 }
 
@@ -329,7 +339,8 @@ static bool put_gas(struct kiln_stages *s, struct kiln_error *error)
     const enum kiln_volume_light_of light = separate ? KILN_VOLUME_SMOKE : KILN_VOLUME_ALL;
     return kiln_volume_put_under(s->volume, light, &s->particle_color, error) &&
            ((!separate && !s->layers) ||
-            kiln_volume_put_under(s->volume, KILN_VOLUME_FLAME, &s->fire_color, error)) &&
+            kiln_volume_put_under(s->volume, separate ? KILN_VOLUME_SHINE : KILN_VOLUME_FLAME,
+                                  &s->fire_color, error)) &&
            (separate || !s->layers ||
             kiln_volume_put_under(s->volume, KILN_VOLUME_SMOKE, &s->smoke_color, error));
 }

@@ -166,7 +166,7 @@ static void draw_gas(struct fixture *f, float depth_m)
                                           .depth = &f->gas.depth,
                                           .profiles = true};
     assert_true(kiln_volume_draw(f->stage, &draw, &error));
-    assert_true(kiln_volume_add_glow(f->stage, &f->raster.bloom, false, &error));
+    assert_true(kiln_volume_add_glow(f->stage, KILN_VOLUME_ALL, &f->raster.bloom, false, &error));
 }
 
 /* Draws sprites [first, first + count) to the raster's targets. */
@@ -202,7 +202,8 @@ static void draw_both(struct fixture *f, bool by_fragment, struct drawn *to)
                                       .height = SIZE,
                                       .scale = 1.0f,
                                       .smoke = 1.0f,
-                                      .flame = 1.0f};
+                                      .flame = 1.0f,
+                                      .glow = 1.0f};
     assert_non_null(gas.profiles);
     draw_sprites(f, 0, SPRITES, &gas, by_fragment);
     assert_true(kiln_volume_put_under(f->stage, KILN_VOLUME_ALL, &f->raster.color, &error));

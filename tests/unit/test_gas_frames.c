@@ -128,6 +128,7 @@ static void particles_lie_over_gas(void **state)
         const double before = luminance(without->layers[FRAME_BEAUTY].pixels + MIDDLE);
         const double flames = i % 4 == 1 ? 2.0 : 0.0;
         assert_near(luminance(beauty + MIDDLE), before + flames, 5e-3);
+        assert_near(luminance(with->layers[FRAME_BLOOM].pixels + MIDDLE), 0.25 * flames, 5e-3);
         kiln_picture_destroy(&without);
         kiln_picture_destroy(&with);
     }
@@ -161,6 +162,44 @@ static void gas_dims_the_glow_behind_it(void **state)
     kiln_picture_destroy(&with);
 }
 
+/* A square of fire behind the gas, in the middle of the picture, which does not glow. */
+static const char BEHIND[] =
+    "kiln: 1\n"
+    "output: {size: [48, 36]}\n"
+    "camera: {position: [0, 1, 10], target: [0, 1, 0], fov: 18 deg}\n"
+    "backdrop: {haze: 0, floor: none}\n"
+    "systems:\n"
+    "  fire:\n"
+    "    emit: {rate: 60, life: 1 s, speed: 0, from: {point: {origin: [0, 1, -3]}}}\n"
+    "    look: {blend: add, size: 1 m, shape: point, color: [0.3, 0.2, 0.1]}\n"
+    "post: {bloom: {kind: none}}\n";
+
+/* Flames would be seen twice where fire is behind them. */
+static void fire_behind_flames_adds_to_them(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct gas_frame frame = {.text = BEHIND,
+                                  .overrides = {COMPOSE[i]},
+                                  .count = 1,
+                                  .steps = 20,
+                                  .techniques = FRAME_CPU};
+        struct kiln_picture *without = gas_frame_draw(NULL, &frame);
+        frame.domain = true;
+        frame.smoke = 1.0f;
+        frame.flame = 0.1f;
+        struct kiln_picture *with = gas_frame_draw(NULL, &frame);
+        const double flames = 0.2 / 0.5 * HIDDEN;
+        const double before = luminance(without->layers[FRAME_FIRE].pixels + MIDDLE);
+        assert_true(before > 0.1);
+        assert_near(luminance(with->layers[FRAME_FIRE].pixels + MIDDLE),
+                    before * (1.0 - HIDDEN) + flames, 3e-3);
+        assert_near(luminance(with->layers[FRAME_BLOOM].pixels + MIDDLE), 0.25 * flames, 1e-3);
+        kiln_picture_destroy(&without);
+        kiln_picture_destroy(&with);
+    }
+}
+
 static void a_domain_without_gas_changes_nothing(void **state)
 {
     (void)state;
@@ -189,6 +228,7 @@ int main(void)
         cmocka_unit_test(moments_show_the_same_gas),
         cmocka_unit_test(particles_lie_over_gas),
         cmocka_unit_test(gas_dims_the_glow_behind_it),
+        cmocka_unit_test(fire_behind_flames_adds_to_them),
         cmocka_unit_test(a_domain_without_gas_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -44,6 +44,7 @@ struct kiln_tile_gas {
     float scale;              /* pixels of that picture along an edge of a pixel */
     float margin_x, margin_y; /* by which the picture of sprites reaches beyond it, px of it */
     float smoke, flame;       /* 1: sprites cover this light of gas; 0: they have none of it */
+    float glow;               /* and so the glow of flames */
 };
 
 struct kiln_tile {

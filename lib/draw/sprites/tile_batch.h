@@ -179,7 +179,8 @@ SIMD void blend_in_gas(const struct target *d, const int32_t *at, const struct g
     float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
     for (int c = 0; c < 3 && d->tile->glow == KILN_TILE_GLOW_WEIGHED; c++) {
         float *glow = planes[KILN_TILE_GLOW_RED + c];
-        const vf added = rgb[c] * gas->clear * d->s->bloom[c] + alpha * gas->glow[c];
+        const vf covered = alpha * d->tile->gas->glow;
+        const vf added = rgb[c] * gas->clear * d->s->bloom[c] + covered * gas->glow[c];
         vf_store_units(glow, at, vf_load_units(glow, at) + added);
     }
     for (int c = 0; c < 3; c++) {

@@ -570,10 +570,10 @@ static bool put(struct kiln_volume_stage *s, struct kiln_volume_put job, struct 
     return job.to && kiln_threads_try(s->threads, s->height, 16, rows, &job, error);
 }
 
-bool kiln_volume_add_glow(struct kiln_volume_stage *stage, struct kiln_image *bloom, bool keep,
-                          struct kiln_error *error)
+bool kiln_volume_add_glow(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,
+                          struct kiln_image *bloom, bool keep, struct kiln_error *error)
 {
-    return put(stage, (struct kiln_volume_put){.keep = keep}, bloom,
+    return put(stage, (struct kiln_volume_put){.light = light, .keep = keep}, bloom,
                keep ? KILN_READ_WRITE : KILN_OVERWRITE, kiln_volume_put_glow_rows, error);
 }
 

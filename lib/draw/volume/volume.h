@@ -21,6 +21,7 @@ enum kiln_volume_light_of {
     KILN_VOLUME_ALL,   /* smoke and flames */
     KILN_VOLUME_SMOKE, /* what smoke scatters, and what gas hides */
     KILN_VOLUME_FLAME, /* the light of flames alone, which hides nothing */
+    KILN_VOLUME_SHINE, /* the same, which particles do not hide either */
 };
 
 /* Returns whether the scene has gas that is drawn. */
@@ -58,10 +59,11 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
  * asked for. They are valid until the next call of kiln_volume_draw. */
 const struct kiln_volume_profiles *kiln_volume_profiles(const struct kiln_volume_stage *stage);
 
-/* Draws the glow of flames over an image: the gas dims the glow behind it. keep: false if nothing
- * was drawn to the image before. */
-bool kiln_volume_add_glow(struct kiln_volume_stage *stage, struct kiln_image *bloom, bool keep,
-                          struct kiln_error *error);
+/* Draws the glow of flames over an image: the gas dims the glow behind it (KILN_VOLUME_ALL), or
+ * does nothing but that (KILN_VOLUME_SMOKE), or only adds its own (KILN_VOLUME_SHINE). keep: false
+ * if nothing was drawn to the image before. */
+bool kiln_volume_add_glow(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,
+                          struct kiln_image *bloom, bool keep, struct kiln_error *error);
 
 /* Puts gas under an image of particles, premultiplied. */
 bool kiln_volume_put_under(struct kiln_volume_stage *stage, enum kiln_volume_light_of light,

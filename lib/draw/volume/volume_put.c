@@ -20,22 +20,23 @@ static void put_under(const struct kiln_volume_put *job, size_t first)
     const float *smoke = job->planes->smoke + first;
     const float *flame = job->planes->flame + first;
     float *to = job->to + first;
-    const float left = 1.0f - to[3];
-    for (int c = 0; c < 3 && job->light == KILN_VOLUME_FLAME; c++)
-        to[c] += flame[c];
-    for (int c = 0; c < 3 && job->light != KILN_VOLUME_FLAME; c++)
-        to[c] += left * (job->light == KILN_VOLUME_ALL ? smoke[c] + flame[c] : smoke[c]);
-    if (job->light != KILN_VOLUME_FLAME)
+    const enum kiln_volume_light_of light = job->light;
+    const float left = light == KILN_VOLUME_SHINE ? 1.0f : 1.0f - to[3];
+    for (int c = 0; c < 3; c++)
+        to[c] += left * (light == KILN_VOLUME_ALL     ? smoke[c] + flame[c]
+                         : light == KILN_VOLUME_SMOKE ? smoke[c]
+                                                      : flame[c]);
+    if (light == KILN_VOLUME_ALL || light == KILN_VOLUME_SMOKE)
         to[3] += left * smoke[3];
 }
 
 static void put_glow(const struct kiln_volume_put *job, size_t first)
 {
     const float *glow = job->planes->glow + first;
-    const float hidden = job->planes->smoke[first + 3];
+    const float hidden = job->light == KILN_VOLUME_SHINE ? 0.0f : job->planes->smoke[first + 3];
     float *to = job->to + first;
     for (int c = 0; c < 3; c++)
-        to[c] = glow[c] + (1.0f - hidden) * to[c];
+        to[c] = (job->light == KILN_VOLUME_SMOKE ? 0.0f : glow[c]) + (1.0f - hidden) * to[c];
     to[3] = hidden + (1.0f - hidden) * to[3];
 }
 

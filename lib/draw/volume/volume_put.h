@@ -12,7 +12,7 @@ struct kiln_volume_put {
     const uint8_t *touched; /* of each tile: gas was drawn there */
     uint32_t width;
     float *to;                       /* four floats a pixel */
-    enum kiln_volume_light_of light; /* for kiln_volume_put_under_rows */
+    enum kiln_volume_light_of light; /* not for kiln_volume_put_layer_rows */
     bool keep;                       /* for kiln_volume_put_glow_rows: something was drawn before */
 };
 
