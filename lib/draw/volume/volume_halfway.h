@@ -31,6 +31,16 @@ SIMD_ONCE void halfway_begin(const struct kiln_volume_march *m, uint32_t x, uint
     *h = (struct halfway){.depth = eight_load(depth)};
 }
 
+/* Returns whether a ray becomes half opaque between two optical depths. Most steps have none. */
+SIMD bool halfway_lies_in(const struct eight *before, const struct eight *behind,
+                          const struct halfway *h)
+{
+    vi some = vi_all(0);
+    EIGHT_EACH(k)
+    some |= (before->part[k] < h->depth.part[k]) & (h->depth.part[k] <= behind->part[k]);
+    return any(some);
+}
+
 SIMD_ONCE void halfway_add(const struct halfway_step *step, struct halfway *h)
 {
     EIGHT_EACH(k)

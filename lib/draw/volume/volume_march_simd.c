@@ -350,7 +350,7 @@ SIMD void add_step(const struct kiln_volume_march *m, struct packet *p, const st
 {
     const struct eight before = p->depth;
     shade(m, p, at, values, tints);
-    if (m->halfway.depth_m)
+    if (m->halfway.depth_m && halfway_lies_in(&before, &p->depth, &p->halfway))
         halfway_add(&(struct halfway_step){before, p->depth, at->middle, at->length}, &p->halfway);
 }
 
