@@ -348,7 +348,7 @@ static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_e
 const struct kiln_format kiln_format_exr = {
     .suffix = ".exr",
     .name = "OpenEXR images",
-    .help = "half or float, linear, premultiplied; named layers",
+    .help = "half or float, linear, premultiplied; layers of depth, fire, smoke, bloom and gas",
     .uses = KILN_USES_EXR_BITS,
     .needs = needs,
     .check = check,

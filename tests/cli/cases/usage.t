@@ -577,7 +577,7 @@ $ kiln help outputs
 1|
 1|  .png   PNG images: 8 or 16 bits, sRGB; alpha with a transparent backdrop
 1|  .jpg   JPEG images: 8 bits, full chroma, no alpha; quality 0 to 100, from 91 on the best; .jpeg is the same
-1|  .exr   OpenEXR images: half or float, linear, premultiplied; named layers
+1|  .exr   OpenEXR images: half or float, linear, premultiplied; layers of depth, fire, smoke, bloom and gas
 1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100; 100 is visually lossless
 1|  .webm  VP9 video: for the web, with alpha; quality 0 to 100; frame times in whole ms
 1|  .mkv   FFV1 video: lossless, 8 or 16 bits (--png-bits), with alpha; frame times in whole ms
