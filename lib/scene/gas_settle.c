@@ -214,7 +214,7 @@ static bool settle_source(const struct settling *s, uint32_t index)
     const char *shape = facing[source->emit.shape];
     char key[64];
     settle_auto(&source->reach, fmaxf(longest / 16.0f, 1.5f * domain->shape.cell));
-    settle_auto(&source->noise_size, longest / 24.0f);
+    settle_auto(&source->noise_size, longest / 16.0f);
     source->blows = !is_zero_vector(s->scene, &source->velocity) ||
                     !is_zero(s->scene, &source->outward) || !is_zero(s->scene, &source->inherit);
     source->from =

@@ -168,7 +168,7 @@ TABLE(source_noise) = {
           "Part of fuel, temperature, smoke and speed that is missing where the noise is lowest. "
           "0 is an even source."),
     {ROW(MOTION, "size", value, noise_size, "auto",
-         "Size of the largest eddies of the noise. `auto` is a 24th of the longest edge of the "
+         "Size of the largest eddies of the noise. `auto` is a 16th of the longest edge of the "
          "domain."),
      LIMITS(KILN_METRES, 0.0001, FAR), .clocks = TIME(16), .special_word = "auto"},
     VALUE(MOTION, "speed", noise_speed, KILN_SPEED, 0, 1000, TIME(17), "0.5 m/s",
@@ -185,7 +185,7 @@ TABLE(source) = {
      .special_word = "none"},
     {ROW(MOTION, "reach", value, reach, "auto",
          "Over so many metres from the shape, or from a particle, the source fades to nothing. "
-         "`auto` is a 40th of the longest edge of the domain, or 1.5 cells if that is more."),
+         "`auto` is a 16th of the longest edge of the domain, or 1.5 cells if that is more."),
      LIMITS(KILN_METRES, 0, FAR), .clocks = TIME(14), .special_word = "auto"},
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 10000, TIME(6), "20 1/s",
           "How fast the gas at the source takes on what the source says: after 1/`rate` seconds, "
@@ -224,16 +224,16 @@ ITEM_OF_ROWS(gas_source, source);
 TABLE(burn) = {
     VALUE(MOTION, "ignition", ignition, KILN_PLAIN, 0, 10, TIME(18), "0.25",
           "Temperature from which fuel burns."),
-    VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1000, TIME(19), "2.2 1/s",
+    VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1000, TIME(19), "3.5 1/s",
           "How fast hot fuel burns: after 1/`rate` seconds, 63 % of it is gone."),
-    VALUE(MOTION, "heat", heat, KILN_PLAIN, 0, 100, TIME(20), "1.6",
+    VALUE(MOTION, "heat", heat, KILN_PLAIN, 0, 100, TIME(20), "2",
           "Temperature that a cell full of fuel adds as it burns."),
     VALUE(MOTION, "soot", soot, KILN_PLAIN, 0, 1000, TIME(21), "0.12",
           "Smoke that a cell full of fuel leaves."),
-    VALUE(MOTION, "expand", expand, KILN_PLAIN, 0, 1000, TIME(22), "1.6",
+    VALUE(MOTION, "expand", expand, KILN_PLAIN, 0, 1000, TIME(22), "1",
           "Volumes of gas that a volume of fuel adds as it burns. Little makes a quiet fire, 20 an "
           "explosion."),
-    VALUE(MOTION, "life", life, KILN_SECONDS, 0.001, 1000, TIME(23), "0.6 s",
+    VALUE(MOTION, "life", life, KILN_SECONDS, 0.001, 1000, TIME(23), "0.5 s",
           "How long a flame glows behind the fuel that has burnt."),
     VALUE(MOTION, "gain", gain, KILN_SECONDS, 0.0001, 1000, TIME(24), "0.094 s",
           "A cell that burns as fast as a full one for so long is a whole flame."),
@@ -246,14 +246,14 @@ TABLE(burn) = {
 #define FILLS struct kiln_gas_turbulence
 
 TABLE(turbulence) = {
-    VALUE(MOTION, "strength", strength, KILN_ACCELERATION, 0, 10000, TIME(32), "6 m/s^2",
+    VALUE(MOTION, "strength", strength, KILN_ACCELERATION, 0, 10000, TIME(32), "9 m/s^2",
           "Typical acceleration of gas by the noise."),
     {ROW(MOTION, "size", value, size, "auto",
          "Size of its largest eddies. `auto` is a tenth of the longest edge of the domain."),
      LIMITS(KILN_METRES, 0.0001, FAR), .clocks = TIME(33), .special_word = "auto"},
     VALUE(MOTION, "speed", speed, KILN_SPEED, 0, 1000, TIME(34), "0.5 m/s",
           "Speed at which the noise rises."),
-    INTEGER(MOTION, "octaves", octaves, 1, 4, "2", "Number of layers of ever smaller eddies."),
+    INTEGER(MOTION, "octaves", octaves, 1, 4, "3", "Number of layers of ever smaller eddies."),
     END,
 };
 
@@ -269,11 +269,11 @@ TABLE(gas_look) = {
     VALUE(LOOK, "scattering", scattering, KILN_PLAIN, -0.99, 0.99, TIME(38), "0.5",
           "Where smoke scatters light to (g of Henyey and Greenstein): 0 is all directions alike, "
           "towards 1 is ahead, so that smoke before the sun has bright edges."),
-    RANGE(LOOK, "kelvin", kelvins, KILN_KELVIN, 0, 20000, TIME(39), "[900, 2250]",
+    RANGE(LOOK, "kelvin", kelvins, KILN_KELVIN, 0, 20000, TIME(39), "[600, 2050]",
           "Temperatures of black bodies whose colours flames have at temperature 0 and 1."),
-    VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, TIME(40), "216",
+    VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, TIME(40), "85",
           "Light of a metre of whole flame at temperature 1. 0 makes flames dark."),
-    VALUE(LOOK, "absorption", absorption, KILN_PER_METRE, 0, 100000, TIME(41), "1.2 1/m",
+    VALUE(LOOK, "absorption", absorption, KILN_PER_METRE, 0, 100000, TIME(41), "4 1/m",
           "Light that whole flames take away. Fire is transparent where it is 0."),
     VALUE(LOOK, "bloom", bloom, KILN_FRACTION, 0, 100, TIME(42), "0.18",
           "Part of the light of flames that goes to the bloom."),
@@ -380,7 +380,7 @@ PUBLIC_TABLE(kiln_options_gas) = {
     GROUP(MOTION, "cooling", cooling, "How gas loses its heat."),
     VALUE(MOTION, "decay", decay, KILN_PER_SECOND, 0, 1000, TIME(30), "0.6 1/s",
           "Rate at which smoke fades: after 1/`decay` seconds, 37 % is left. With 0, it stays."),
-    VALUE(MOTION, "vorticity", vorticity, KILN_PLAIN, 0, 2, TIME(31), "0.25",
+    VALUE(MOTION, "vorticity", vorticity, KILN_PLAIN, 0, 2, TIME(31), "0.5",
           "Strength of vorticity confinement, which keeps small eddies turning. 0 is none, 1 is "
           "wild."),
     GROUP_AT(MOTION, "turbulence", turbulence, turbulence,

@@ -97,11 +97,11 @@ static void a_box_and_a_source_burn(void **state)
     assert_int_equal(source->emit.shape, KILN_EMITTER_DISC);
     assert_true(source->fuel.constant == 1.0f && source->smoke.constant == 0.0f);
     assert_true(is_near((double)source->reach.constant, 0.15));
-    assert_true(is_near((double)source->noise_size.constant, 0.1));
+    assert_true(is_near((double)source->noise_size.constant, 0.15));
     assert_true(is_near((double)fire->turbulence.size.constant, 0.24));
     assert_true(fire->burn.ignition.constant < source->temperature.constant);
-    assert_true(fire->look.kelvin[0].constant == 900.0f &&
-                fire->look.kelvin[1].constant == 2250.0f);
+    assert_true(fire->look.kelvin[0].constant == 600.0f &&
+                fire->look.kelvin[1].constant == 2050.0f);
     assert_int_equal(fire->substeps, 0);
     assert_int_equal(fire->cycles, 2);
     kiln_scene_destroy(&scene);

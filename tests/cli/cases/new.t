@@ -41,4 +41,3 @@ $ for name in $(kiln help templates | sed -nE 's/^  ([a-z]+) .*/\1/p'); do kiln 
 1|smoke
 1|snow
 1|steam
-2|kiln: warning: campfire.yaml:23:26: systems.sparks.forces.0.wind.gas: gas.fire is not enabled, so this wind does nothing
