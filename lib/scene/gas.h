@@ -18,6 +18,12 @@ enum {
  * system (kiln_scene_clocks): noise in a domain differs from that of systems and other domains. */
 #define KILN_SYSTEM_OF_GAS(domain) (KILN_MAX_SYSTEMS + (domain))
 
+/* Says which pixels have a ray through a domain. */
+enum kiln_gas_resolution {
+    KILN_GAS_FULL, /* all */
+    KILN_GAS_HALF, /* every second one of every second row, and where light or the scene changes */
+};
+
 /* What a domain has on one of its sides. */
 enum kiln_gas_side {
     KILN_SIDE_OPEN,   /* gas and air flow through it */
@@ -91,6 +97,7 @@ struct kiln_gas_look {
     struct kiln_value light;      /* and on what is around */
     bool lights;                  /* sun, sky and lamps light the smoke */
     bool shadow;                  /* smoke throws shadows */
+    enum kiln_gas_resolution resolution;
 };
 
 struct kiln_gas_domain {

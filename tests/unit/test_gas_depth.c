@@ -20,7 +20,6 @@ enum {
     SMOKE = 24, /* sprites of each system */
     SPRITES = 2 * SMOKE,
     STEP = 30,
-    CELLS = 64
 };
 
 /* The view is that of gas_view.h. */
@@ -64,13 +63,14 @@ static void set_depth(struct kiln_image *image, float depth_m)
 }
 
 /* Fills a domain with a ball of smoke, in the upper half of which flames are a thin shell. The
- * smoke is of lumps, so that its density changes from cell to cell. */
-static void fill(struct kiln_gas *gas)
+ * smoke is of lumps, so that its density changes from cell to cell. cells: along an edge. */
+static void fill(struct kiln_gas *gas, int32_t cells)
 {
-    gas_fixture_ball(gas, CELLS, 2.0f / CELLS, 0.45f, 1.0f, 1.0f);
-    for (int32_t z = 0; z < CELLS; z++)
-        for (int32_t y = 0; y < CELLS; y++)
-            for (int32_t x = 0; x < CELLS; x++) {
+    const float middle = 0.5f * (float)(cells - 1), scale = 64.0f / (float)cells;
+    gas_fixture_ball(gas, cells, 2.0f / (float)cells, 0.45f, 1.0f, 1.0f);
+    for (int32_t z = 0; z < cells; z++)
+        for (int32_t y = 0; y < cells; y++)
+            for (int32_t x = 0; x < cells; x++) {
                 const size_t number =
                     kiln_gas_brick_index(gas, x / GAS_BRICK, y / GAS_BRICK, z / GAS_BRICK);
                 const int32_t in =
@@ -78,14 +78,15 @@ static void fill(struct kiln_gas *gas)
                 if (!gas->brick[number].now)
                     continue;
                 float *cell = gas->brick[number].now + (ptrdiff_t)in * GAS_CARRIED;
-                const float a = (float)x - 31.5f, b = (float)y - 31.5f, c = (float)z - 31.5f;
+                const float a = scale * ((float)x - middle), b = scale * ((float)y - middle);
+                const float c = scale * ((float)z - middle);
                 const float radius = sqrtf(a * a + b * b + c * c);
                 cell[GAS_SMOKE] *= 0.55f + 0.45f * sinf(0.5f * a) * sinf(0.4f * b) * sinf(0.6f * c);
                 cell[GAS_FLAME] *= fabsf(radius - 22.0f) < 2.0f ? 1.0f : 0.0f;
             }
 }
 
-static int open_with(void **state, float extinction, bool by_fragment)
+static int open_with(void **state, float extinction, bool by_fragment, bool half)
 {
     struct kiln_error error = {0};
     static const char *const oit[] = {"post.compose=oit", NULL};
@@ -100,9 +101,11 @@ static int open_with(void **state, float extinction, bool by_fragment)
                                        .glow = gas_view_value(1.0f),
                                        .lights = true};
     struct kiln_gas *gas = gas_view_add(&f->gas, look);
-    fill(gas);
+    fill(gas, half ? 16 : 64); /* half needs cells that are 2.5 pixels wide */
     f->gas.scene->gas[0].shape = gas->shape;
     f->gas.light.sky_top = f->gas.light.sky_horizon = FLOAT4(0.5f, 0.8f, 1.2f, 0.0f);
+    if (half)
+        f->gas.scene->gas[0].look.resolution = KILN_GAS_HALF;
     f->threads = kiln_threads_create(1);
     f->stage = kiln_volume_create(&f->gas.moment, true, f->threads, &error);
     assert_non_null(f->stage);
@@ -126,22 +129,32 @@ static int open_with(void **state, float extinction, bool by_fragment)
 
 static int open_thin(void **state)
 {
-    return open_with(state, 1.0f, false);
+    return open_with(state, 1.0f, false, false);
 }
 
 static int open_thick(void **state)
 {
-    return open_with(state, 8.0f, false);
+    return open_with(state, 8.0f, false, false);
 }
 
 static int open_thin_oit(void **state)
 {
-    return open_with(state, 1.0f, true);
+    return open_with(state, 1.0f, true, false);
 }
 
 static int open_thick_oit(void **state)
 {
-    return open_with(state, 8.0f, true);
+    return open_with(state, 8.0f, true, false);
+}
+
+static int open_half(void **state)
+{
+    return open_with(state, 1.0f, false, true);
+}
+
+static int open_thick_half(void **state)
+{
+    return open_with(state, 8.0f, false, true);
 }
 
 static int close_all(void **state)
@@ -266,8 +279,8 @@ static void draw_reference(struct fixture *f, struct drawn *sum)
 }
 
 /* Returns the greatest part of a pixel's light, or with alpha of the light from behind, by which a
- * picture is off. Light of less than a thousandth of the picture's brightest counts as that. */
-static double difference(const float *found, const float *expected, bool alpha)
+ * picture is off. Light of less than a part `least` of the picture's brightest counts as that. */
+static double difference(const float *found, const float *expected, bool alpha, double least)
 {
     double most = 0.0;
     float brightest = 0.0f;
@@ -276,7 +289,8 @@ static double difference(const float *found, const float *expected, bool alpha)
     for (int i = 0; i < FLOATS; i++) {
         if (i % 4 == 3 && !alpha)
             continue;
-        const double light = i % 4 == 3 ? 1.0 : fmax((double)expected[i], 1e-3 * (double)brightest);
+        const double light =
+            i % 4 == 3 ? 1.0 : fmax((double)expected[i], least * (double)brightest);
         most = fmax(most, fabs((double)found[i] - (double)expected[i]) / light);
     }
     return most;
@@ -287,11 +301,13 @@ static void check(struct fixture *f, bool by_fragment)
     static struct drawn found, expected;
     draw_reference(f, &expected);
     draw_both(f, by_fragment, &found);
-    const double color = difference(found.color, expected.color, true);
-    const double glow = difference(found.glow, expected.glow, false);
-    if (color > 1.0 / 64.0)
+    const bool half = f->gas.scene->gas[0].look.resolution == KILN_GAS_HALF;
+    const double most = half ? 1.0 / 24.0 : 1.0 / 64.0, least = half ? 1.0 / 16.0 : 1e-3;
+    const double color = difference(found.color, expected.color, true, least);
+    const double glow = difference(found.glow, expected.glow, false, least);
+    if (color > most)
         fail_msg("the light of a pixel is off by %.4f of it", color);
-    if (!by_fragment && glow > 1.0 / 64.0) /* lists of fragments have no glow of gas */
+    if (!by_fragment && glow > most) /* lists of fragments have no glow of gas */
         fail_msg("the glow of a pixel is off by %.4f of it", glow);
 }
 
@@ -316,7 +332,7 @@ static void gas_behind_all_sprites_is_far_from_the_reference(void **state)
     draw_sprites(f, 0, SPRITES, NULL, false);
     assert_true(kiln_volume_put_under(f->stage, KILN_VOLUME_ALL, &f->raster.color, &error));
     take(f, &found);
-    assert_true(difference(found.color, expected.color, true) > 0.5);
+    assert_true(difference(found.color, expected.color, true, 1e-3) > 0.5);
 }
 
 static void bits_are_the_same_at_all_levels(void **state)
@@ -345,6 +361,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(sprites_are_blended_with_gas, open_thick, close_all),
         cmocka_unit_test_setup_teardown(fragments_are_blended_with_gas, open_thin_oit, close_all),
         cmocka_unit_test_setup_teardown(fragments_are_blended_with_gas, open_thick_oit, close_all),
+        cmocka_unit_test_setup_teardown(sprites_are_blended_with_gas, open_half, close_all),
+        cmocka_unit_test_setup_teardown(sprites_are_blended_with_gas, open_thick_half, close_all),
         cmocka_unit_test_setup_teardown(gas_behind_all_sprites_is_far_from_the_reference, open_thin,
                                         close_all),
         cmocka_unit_test_setup_teardown(bits_are_the_same_at_all_levels, open_thin_oit, close_all),

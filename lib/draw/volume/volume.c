@@ -11,12 +11,12 @@
 #include "base/pages.h"
 #include "draw/light/sun_shade.h"
 #include "draw/moment/appearance_blocks.h"
+#include "draw/volume/volume_cast.h"
 #include "draw/volume/volume_glow.h"
 #include "draw/volume/volume_lamps.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_order.h"
 #include "draw/volume/volume_put.h"
-#include "draw/volume/volume_tiles.h"
 #include "scene/gas_extent.h"
 #include "scene/work.h"
 
@@ -35,19 +35,24 @@ struct kiln_volume_stage {
     struct kiln_volume_tiles tiles;
     uint8_t *touched; /* of each tile: gas was drawn there */
     struct kiln_volume_planes planes;
+    float *grid;   /* rays of every second pixel of every second row; NULL: no domain has it */
     float *passed; /* optical depth of the domains before one, of each pixel; NULL until needed */
     struct kiln_volume_profiles profiles;
     uint32_t width, height;
 };
 
-static uint32_t tiles_along(uint32_t pixels)
-{
-    return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
-}
-
 static size_t tile_count(const struct kiln_scene *scene)
 {
-    return (size_t)tiles_along(scene->width) * tiles_along(scene->height);
+    return (size_t)kiln_tiles_along(scene->width) * kiln_tiles_along(scene->height);
+}
+
+/* Returns the bytes of the grid; 0: no domain has it. */
+static size_t grid_bytes(const struct kiln_scene *scene)
+{
+    bool half = false;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        half |= scene->gas[i].enabled && scene->gas[i].look.resolution == KILN_GAS_HALF;
+    return half ? kiln_volume_grid_bytes(scene->width, scene->height) : 0;
 }
 
 bool kiln_volume_exists(const struct kiln_scene *scene)
@@ -71,17 +76,18 @@ struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, b
         stage->simd = moment->simd;
         stage->width = scene->width;
         stage->height = scene->height;
-        stage->planes.pitch = scene->width;
         stage->planes.smoke = kiln_alloc_pages(plane);
         stage->planes.flame = kiln_alloc_pages(plane);
         stage->planes.glow = glow ? kiln_alloc_pages(plane) : NULL;
+        stage->grid = grid_bytes(scene) > 0 ? kiln_alloc_pages(grid_bytes(scene)) : NULL;
         stage->touched = malloc(tile_count(scene));
         kiln_observer_fill(&stage->observer);
     }
     if (stage && scene->backdrop.object_count > 0)
         stage->shade = kiln_sun_shade_create(scene, error);
     if (!stage || (scene->backdrop.object_count > 0 && !stage->shade) || !stage->planes.smoke ||
-        !stage->planes.flame || !stage->touched || (glow && !stage->planes.glow)) {
+        !stage->planes.flame || !stage->touched || (glow && !stage->planes.glow) ||
+        (grid_bytes(scene) > 0 && !stage->grid)) {
         kiln_error_no_memory(error, "drawn gas");
         kiln_volume_destroy(&stage);
     }
@@ -107,6 +113,7 @@ void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint
     if (scene->backdrop.object_count > 0)
         kiln_sun_shade_footprint(scene, footprint);
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, 12 * sizeof(float));
+    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, 1, grid_bytes(scene));
     if (kiln_scene_sprite_slots(scene) > 0)
         kiln_volume_profiles_footprint(drawn, scene->width, scene->height, footprint);
 }
@@ -126,6 +133,7 @@ void kiln_volume_destroy(struct kiln_volume_stage **stage)
     free(s->planes.flame);
     free(s->planes.glow);
     free(s->passed);
+    free(s->grid);
     free(s->touched);
     free(s);
     *stage = NULL;
@@ -317,7 +325,7 @@ static void set3(float to[3], float x, float y, float z)
 static void set_detail(const struct kiln_scene *scene, const struct kiln_gas_domain *d,
                        const struct kiln_moment *moment, struct kiln_volume_march *m)
 {
-    m->step = d->detail > 2 ? 0.5f * VOLUME_STEP : VOLUME_STEP;
+    m->step = d->detail > 2 ? VOLUME_FINE_STEP : VOLUME_STEP;
     m->octaves = d->detail > 2 ? 2 : d->detail > 1 ? 1 : 0;
     const float phase = kiln_gas_way_phase(0, kiln_scene_time(scene, moment->view.clock_step.x));
     const float second = fabsf(2.0f * phase - 1.0f), first = 1.0f - second;
@@ -386,34 +394,6 @@ static void set_lamps(struct kiln_volume_stage *s, uint32_t number,
     }
 }
 
-struct march_job {
-    struct kiln_volume_stage *stage;
-    const struct kiln_volume_march *march;
-    const struct kiln_volume_march_rows *rows;
-    struct kiln_volume_domain *profiles; /* NULL: they are not needed */
-};
-
-/* Draws the tiles of a row of tiles. */
-static void march_tiles(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct march_job *job = context;
-    const uint32_t across = tiles_along(job->stage->width);
-    for (size_t row = begin; row < end; row++)
-        for (uint32_t x = 0; x < across; x++) {
-            const size_t number = row * across + x;
-            const struct kiln_tile_depths depths = job->stage->tiles.depths[number];
-            const struct kiln_volume_tile tile = {x * VOLUME_TILE, (uint32_t)row * VOLUME_TILE,
-                                                  depths.near_m, depths.far_m};
-            if (!(depths.near_m < depths.far_m))
-                continue;
-            if (job->profiles)
-                job->profiles->near_m[number] = depths.near_m;
-            job->rows->draw(job->march, &tile);
-            job->stage->touched[number] = 1;
-        }
-}
-
 /* Copies and, if asked, lights the gas of a domain. */
 static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
                        const struct kiln_gas *gas, bool light, struct kiln_error *error)
@@ -461,12 +441,15 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
         return false;
     if (s->field.count == 0)
         return true;
-    struct march_job job = {s, &domain.march, KILN_SIMD_PICK(kiln_volume_march_rows, s->simd),
-                            how->profiles};
     if (how->profiles)
         how->profiles->bloom = domain.march.bloom;
-    return kiln_volume_tiles_find(&s->tiles, &domain.march, s->threads, error) &&
-           kiln_threads_try(s->threads, tiles_along(s->height), 1, march_tiles, &job, error);
+    const bool half = s->scene->gas[number].look.resolution == KILN_GAS_HALF;
+    const struct kiln_volume_cast cast = {.march = &domain.march,
+                                          .rows = KILN_SIMD_PICK(kiln_volume_march_rows, s->simd),
+                                          .tiles = &s->tiles,
+                                          .touched = s->touched,
+                                          .grid = half && !how->halfway_only ? s->grid : NULL};
+    return kiln_volume_cast(&cast, s->threads, error);
 }
 
 /* ---- pictures -------------------------------------------------------------------------------- */

@@ -3,17 +3,10 @@
 #ifndef KILN_DRAW_VOLUME_VOLUME_HALFWAY_H
 #define KILN_DRAW_VOLUME_VOLUME_HALFWAY_H
 
-#include "base/eight.h"
-#include "draw/volume/volume_march.h"
+#include "draw/volume/volume_packet.h"
 
 /* The optical depth of gas that is half opaque: the natural logarithm of 2. */
 #define HALF_OPAQUE 0.693147181f
-
-/* Holds where rays are half opaque. */
-struct halfway {
-    struct eight depth; /* optical depth of this domain at which all gas is half opaque */
-    struct eight place; /* from the eye, cells; 0: nowhere */
-};
 
 /* Holds the gas of rays that a step adds. */
 struct halfway_step {
@@ -21,13 +14,12 @@ struct halfway_step {
     struct eight middle, length; /* of the step, cells */
 };
 
-/* Begins with eight pixels of row y, from x on. */
-SIMD_ONCE void halfway_begin(const struct kiln_volume_march *m, uint32_t x, uint32_t y,
+SIMD_ONCE void halfway_begin(const struct kiln_volume_march *m, const struct pixels *pixels,
                              struct halfway *h)
 {
-    float depth[8] = {0};
-    for (uint32_t k = 0; k < 8 && x + k < m->width; k++)
-        depth[k] = HALF_OPAQUE - m->halfway.passed[(size_t)y * m->width + x + k];
+    float depth[VOLUME_PACKET] = {0};
+    for (uint32_t k = 0; k < pixels->count; k++)
+        depth[k] = HALF_OPAQUE - m->halfway.passed[pixels->at[k]];
     *h = (struct halfway){.depth = eight_load(depth)};
 }
 
@@ -55,18 +47,44 @@ SIMD_ONCE void halfway_add(const struct halfway_step *step, struct halfway *h)
 /* Stores the depths of the pixels, and adds the optical depth of this domain. a_metre: cells along
  * rays for a metre of depth. */
 SIMD_ONCE void halfway_store(const struct kiln_volume_march *m, const struct halfway *h,
-                             struct eight a_metre, struct eight depth, uint32_t x, uint32_t y)
+                             struct eight a_metre, struct eight depth, const struct pixels *pixels)
 {
     _Alignas(32) float place[8], metre[8], passed[8];
     eight_store(place, h->place);
     eight_store(metre, a_metre);
     eight_store(passed, depth);
-    for (uint32_t k = 0; k < 8 && x + k < m->width; k++) {
-        const size_t at = (size_t)y * m->width + x + k;
+    for (uint32_t k = 0; k < pixels->count; k++) {
+        const size_t at = pixels->at[k];
         if (place[k] > 0.0f)
             m->halfway.depth_m[at] = place[k] / metre[k];
         m->halfway.passed[at] += passed[k];
     }
+}
+
+/* Rays between which a pixel's depth is the mean of theirs are at most so far apart, cells. */
+#define HALFWAY_CELLS 2.0f
+
+/* Sets the depth of a pixel without a ray to the mean of those of its neighbours, if the march asks
+ * for it. Returns false if these are too far apart, so that the pixel needs a ray. */
+SIMD bool halfway_between(const struct kiln_volume_march *m, uint32_t x, uint32_t y)
+{
+    const uint32_t across = x % 2, down = y % 2;
+    if (!m->halfway.depth_m)
+        return true;
+    float least = 1e9f, most = 0.0f, sum = 0.0f, count = 0.0f;
+    for (uint32_t row = y - down; row <= y + down; row += 2)
+        for (uint32_t column = x - across; column <= x + across; column += 2) {
+            const float depth = m->halfway.depth_m[(size_t)row * m->width + column];
+            least = depth < least ? depth : least;
+            most = depth > most ? depth : most;
+            sum += depth;
+            count += 1.0f;
+        }
+    if (most - least > HALFWAY_CELLS * m->cell_m)
+        return false;
+    if (least < 1e9f)
+        m->halfway.depth_m[(size_t)y * m->width + x] = sum / count;
+    return true;
 }
 
 #endif

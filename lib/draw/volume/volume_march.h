@@ -9,20 +9,30 @@
 #include "draw/volume/volume_profile.h"
 #include "shared/draw_layout.h"
 
-/* The length of a step, cells; half of it where the finest noise is drawn. */
-#define VOLUME_STEP 0.75f
+/* The length of a step, cells, and where the finest noise is drawn, whose lattice is 1.5 cells
+ * wide. */
+#define VOLUME_STEP      0.75f
+#define VOLUME_FINE_STEP 0.5f
 
 /* Octaves of noise that are drawn where gas came from, and the edge of the cells of the first one's
  * lattice, cells: about the smallest eddies that the gas itself has. */
 enum { VOLUME_MOST_OCTAVES = 2 };
 #define VOLUME_NOISE_CELL 3.0f
 
-/* Holds the planes of a picture of gas, four floats a pixel, rows of `pitch` pixels. */
+/* The floats of a ray: what it sees of a domain. */
+enum {
+    VOLUME_RAY_SMOKE,     /* light that smoke scatters: rgb, premultiplied */
+    VOLUME_RAY_ALPHA = 3, /* part of the light behind the gas that it hides */
+    VOLUME_RAY_FLAME,     /* light of flames: rgb */
+    VOLUME_RAY_END = 7,   /* in the grid: kiln_volume_ray_end; else 0 */
+    VOLUME_RAY,
+};
+
+/* Holds the planes of a picture of gas, four floats a pixel. */
 struct kiln_volume_planes {
     float *smoke; /* scattered light and alpha, premultiplied */
     float *flame; /* light of the flames; the fourth float is not used */
     float *glow;  /* the part of it that glows; NULL: not needed */
-    size_t pitch;
 };
 
 /* Holds where the gas of each pixel has become half opaque; rows of the picture's width. */
@@ -58,7 +68,25 @@ struct kiln_volume_march {
     struct kiln_volume_planes planes;    /* smoke NULL: there are none */
     struct kiln_volume_halfway halfway;  /* is written on; depth_m NULL: not needed */
     struct kiln_volume_domain *profiles; /* which are written; NULL: they are not needed */
+    /* Of the march of every second pixel of every second row: */
+    float *grid;                     /* rays, row by row */
+    uint32_t grid_across, grid_down; /* rays in a row, and rows */
+    float far_m;                     /* depth behind which the domain has no gas */
 };
+
+/* Returns a ray of the grid. */
+static inline float *kiln_volume_grid_ray(const struct kiln_volume_march *m, uint32_t column,
+                                          uint32_t row)
+{
+    return m->grid + VOLUME_RAY * ((size_t)row * m->grid_across + column);
+}
+
+/* Returns the inverse of the depth at which the ray of a pixel ends, 1/m, which changes evenly
+ * across a plane: at the scene, or where no more gas follows. */
+static inline float kiln_volume_ray_end(const struct kiln_volume_march *m, size_t pixel)
+{
+    return 1.0f / (m->depth[pixel] < m->far_m ? m->depth[pixel] : m->far_m);
+}
 
 /* A tile of the picture, and the depths between which blocks lie in it. */
 struct kiln_volume_tile {
@@ -67,8 +95,14 @@ struct kiln_volume_tile {
 };
 
 struct kiln_volume_march_rows {
-    /* Draws the gas of a tile over what the planes hold. */
+    /* Draws the gas of a tile over what the planes hold: a ray for each pixel. */
     void (*draw)(const struct kiln_volume_march *march, const struct kiln_volume_tile *tile);
+    /* Marches the rays of a tile's grid. */
+    void (*march_grid)(const struct kiln_volume_march *march, const struct kiln_volume_tile *tile);
+    /* Draws the gas of a tile by the grid, and by more rays where its light changes too much. All
+     * of the grid must have been marched. */
+    void (*draw_between)(const struct kiln_volume_march *march,
+                         const struct kiln_volume_tile *tile);
 };
 KILN_SIMD_DECLARE(const struct kiln_volume_march_rows, kiln_volume_march_rows);
 

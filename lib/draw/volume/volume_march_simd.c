@@ -6,115 +6,18 @@
  * bit. The eight rays are the same at each level of vectors. */
 #include "base/eight.h"
 #include "draw/vector/haze_color.h"
+#include "draw/volume/volume_between.h"
 #include "draw/volume/volume_halfway.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_noise.h"
+#include "draw/volume/volume_packet.h"
 #include "draw/volume/volume_record.h"
 
 /* How much noise changes the amount of gas: the deviation of its logarithm, of one octave. */
 #define DETAIL 0.6f
 
-/* Holds eight rays. */
-struct packet {
-    struct eight way[3];     /* unit, in the window */
-    struct eight inverse[3]; /* 1 / way */
-    struct eight from, to;   /* where a ray enters the window and where it ends; to 0: nowhere */
-    struct eight metre;      /* cells along a ray for a metre of depth */
-    struct eight first,
-        wide;           /* phase functions of the sun's light, scattered once and more often */
-    struct eight clear; /* what gas leaves of the light behind it */
-    struct eight depth; /* optical depth of the gas so far */
-    struct eight smoke[3], flame[3];
-    struct eight weight, far; /* of what is seen: its amount, and that times its distance, cells */
-    struct halfway halfway;   /* set if the march asks for it */
-};
-
-/* Returns the phase function of Henyey and Greenstein in parts of an even one. */
-SIMD vf henyey_greenstein(vf cosine, float g)
-{
-    const vf d = 1.0f + g * g - 2.0f * g * cosine;
-    return (1.0f - g * g) / (d * vf_sqrt(d));
-}
-
-SIMD vf phase_of(vf cosine, float g)
-{
-    return 0.8f * henyey_greenstein(cosine, g) + 0.2f * henyey_greenstein(cosine, -0.3f * g);
-}
-
-/* Sets up the rays of eight pixels. Returns whether one of them meets the window. */
-SIMD bool make_packet(const struct kiln_volume_march *m, uint32_t x, uint32_t y, struct packet *p)
-{
-    const float count[3] = {(float)m->field->cells.x, (float)m->field->cells.y,
-                            (float)m->field->cells.z};
-    const float down = ((float)y + 0.5f - m->middle_y) * m->pixel_y;
-    bool some = false;
-    memset(p, 0, sizeof *p);
-    EIGHT_EACH(k)
-    {
-        const vf pixel = vf_count() + (float)(x + (uint32_t)(k * LANES));
-        const vf aside = (pixel + 0.5f - m->middle_x) * m->pixel_x;
-        const vf inside = vf_where(pixel < (float)m->width, vf_all(1.0f));
-        vf way[3], square = vf_all(0.0f), cosine = vf_all(0.0f);
-        float depth[LANES];
-        for (uint32_t i = 0; i < LANES; i++) {
-            const uint32_t column = x + (uint32_t)(k * LANES) + i;
-            depth[i] = column < m->width ? m->depth[(size_t)y * m->width + column] : 0.0f;
-        }
-        for (int i = 0; i < 3; i++) {
-            way[i] = m->right[i] * aside + (m->forward[i] - m->up[i] * down);
-            square += way[i] * way[i];
-        }
-        const vf length = vf_sqrt(square); /* cells a metre of depth */
-        vf from = length * m->near_m, to = length * vf_load(depth) * inside;
-        for (int i = 0; i < 3; i++) {
-            vf along = way[i] / length;
-            along = vf_select(vf_abs(along) < 1e-6f, vf_all(1e-6f), along);
-            const vf inverse = 1.0f / along;
-            const vf a = -m->eye[i] * inverse, b = (count[i] - m->eye[i]) * inverse;
-            from = vf_max(from, vf_min(a, b));
-            to = vf_min(to, vf_max(a, b));
-            cosine += along * m->to_sun[i];
-            p->way[i].part[k] = along;
-            p->inverse[i].part[k] = inverse;
-        }
-        const vi meets = from < to;
-        p->from.part[k] = from;
-        p->to.part[k] = vf_where(meets, to);
-        p->metre.part[k] = length;
-        p->first.part[k] = phase_of(cosine, m->scattering);
-        p->wide.part[k] = phase_of(cosine, 0.5f * m->scattering);
-        p->clear.part[k] = vf_all(1.0f);
-        some |= any(meets);
-    }
-    return some;
-}
-
-/* Returns the least of eight numbers. */
-SIMD float least_of(struct eight x)
-{
-    float lanes[8];
-    eight_store(lanes, x);
-    float least = lanes[0];
-    for (int i = 1; i < 8; i++)
-        least = lanes[i] < least ? lanes[i] : least;
-    return least;
-}
-
-/* Returns the number of the first step of a packet in a tile, and writes where its last one is. */
-SIMD float first_step(const struct kiln_volume_march *m, const struct packet *p,
-                      const struct kiln_volume_tile *tile, float *last)
-{
-    struct eight from, to;
-    EIGHT_EACH(k)
-    {
-        const vi meets = p->from.part[k] < p->to.part[k];
-        const vf near = vf_max(p->from.part[k], p->metre.part[k] * tile->near_m);
-        from.part[k] = vf_select(meets, near, vf_all(1e9f));
-        to.part[k] = -p->metre.part[k] * tile->far_m;
-    }
-    *last = -least_of(to);
-    return floorf(least_of(from) * (1.0f / m->step));
-}
+/* A step of a ray that adds less light and opacity than this is drawn without noise. */
+#define DETAIL_SEEN (1.0f / 2048.0f)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
@@ -278,15 +181,36 @@ SIMD_ONCE void find_detail(const struct kiln_volume_march *m, const struct place
     }
 }
 
+/* Finds the rays that a step changes enough for its noise to be seen. Returns whether there is one.
+ */
+SIMD bool find_seen(const struct kiln_volume_march *m, const struct packet *p,
+                    const struct places *at, const struct eight values[VOLUME_CELL],
+                    vi seen[EIGHT_PARTS])
+{
+    vi some = vi_all(0);
+    EIGHT_EACH(k)
+    {
+        const vf gas = values[VOLUME_SMOKE].part[k] * m->extinction +
+                       values[VOLUME_FLAME].part[k] * (m->absorption + m->intensity);
+        seen[k] = p->clear.part[k] * at->length.part[k] * m->cell_m * gas > DETAIL_SEEN;
+        some |= seen[k];
+    }
+    return any(some);
+}
+
 /* Changes the sampled gas by the noise where it came from; flames by less, as their light is not
  * scattered. tints: NULL without colours. */
-SIMD void add_detail(const struct kiln_volume_march *m, const struct places *at,
-                     struct eight values[VOLUME_CELL], struct eight *tints)
+SIMD void add_detail(const struct kiln_volume_march *m, const struct packet *p,
+                     const struct places *at, struct eight values[VOLUME_CELL], struct eight *tints)
 {
     struct eight factor;
+    vi seen[EIGHT_PARTS];
+    if (!find_seen(m, p, at, values, seen))
+        return;
     find_detail(m, at, &factor);
     EIGHT_EACH(k)
     {
+        factor.part[k] = vf_select(seen[k], factor.part[k], vf_all(1.0f));
         values[VOLUME_SMOKE].part[k] *= factor.part[k];
         values[VOLUME_FLAME].part[k] *= vf_sqrt(factor.part[k]);
         for (int i = 0; i < 3 && tints; i++)
@@ -411,29 +335,6 @@ SIMD void veil(const struct veil *v, struct eight through, struct eight smoke[3]
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
-static void store_pixels(const struct kiln_volume_march *m, const struct packet *p, uint32_t x,
-                         uint32_t y)
-{
-    _Alignas(32) float clear[8], smoke[3][8], flame[3][8];
-    eight_store(clear, p->clear);
-    for (int i = 0; i < 3; i++) {
-        eight_store(smoke[i], p->smoke[i]);
-        eight_store(flame[i], p->flame[i]);
-    }
-    for (uint32_t k = 0; k < 8 && x + k < m->width; k++) {
-        const size_t at = 4 * ((size_t)y * m->planes.pitch + x + k);
-        float *to = m->planes.smoke + at, *fire = m->planes.flame + at;
-        float *glow = m->planes.glow ? m->planes.glow + at : NULL;
-        for (int i = 0; i < 3; i++) {
-            to[i] = smoke[i][k] + clear[k] * to[i];
-            fire[i] = flame[i][k] + clear[k] * fire[i];
-            if (glow)
-                glow[i] = m->bloom * flame[i][k] + clear[k] * glow[i];
-        }
-        to[3] = (1.0f - clear[k]) + clear[k] * to[3];
-    }
-}
-
 /* Returns the numbers of a profile at the present place of a packet. */
 SIMD void numbers_of(const struct packet *p, struct eight numbers[RECORDED])
 {
@@ -505,7 +406,7 @@ SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volum
         if (colored)
             sample_tints(m->field, &at, tints);
         if (detail)
-            add_detail(m, &at, values, colored ? tints : NULL);
+            add_detail(m, p, &at, values, colored ? tints : NULL);
         add_step(m, p, &at, values, colored ? tints : NULL);
         more = end_rays(m, p, step);
         step += 1.0f;
@@ -513,43 +414,140 @@ SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volum
     return drawn;
 }
 
-static void march_packet(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
-                         uint32_t x, uint32_t y)
+/* Writes the floats of rays (VOLUME_RAY), one ray after another. */
+SIMD void store_rays(const struct packet *p, float *rays)
+{
+    struct eight columns[VOLUME_RAY] = {{{{0}}}};
+    for (int i = 0; i < 3; i++) {
+        columns[VOLUME_RAY_SMOKE + i] = p->smoke[i];
+        columns[VOLUME_RAY_FLAME + i] = p->flame[i];
+    }
+    EIGHT_EACH(k)
+    columns[VOLUME_RAY_ALPHA].part[k] = 1.0f - p->clear.part[k];
+    eight_rows(rays, columns);
+}
+
+/* Marches the rays of pixels, and writes their floats. Returns false, and writes none, if no ray
+ * meets gas, or light is not asked for. */
+SIMD_ONCE bool march_packet(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
+                            const struct pixels *pixels, float *rays)
 {
     struct packet p;
     struct record record;
     record.count = 0;
     struct veil veiled;
-    struct kiln_volume_profile **profile = NULL;
-    if (m->profiles) {
-        const uint32_t across = (m->width + VOLUME_PACKET - 1) / VOLUME_PACKET;
-        profile = m->profiles->packets + (size_t)y * across + x / VOLUME_PACKET;
-        *profile = NULL;
-    }
-    if (!make_packet(m, x, y, &p))
-        return;
+    if (!make_packet(m, pixels, &p))
+        return false;
     if (m->halfway.depth_m)
-        halfway_begin(m, x, y, &p.halfway);
-    const float end = march_rays(m, tile, &p, profile ? &record : NULL);
+        halfway_begin(m, pixels, &p.halfway);
+    const float end = march_rays(m, tile, &p, m->profiles ? &record : NULL);
     if (end < 0.0f)
-        return;
+        return false;
     if (m->halfway.depth_m)
-        halfway_store(m, &p.halfway, p.metre, p.depth, x, y);
+        halfway_store(m, &p.halfway, p.metre, p.depth, pixels);
     if (!m->planes.smoke)
-        return;
+        return false;
     if (m->haze)
         find_veil(m, &p, &veiled);
-    if (profile)
-        *profile = write_profile(m, &record, &p, m->haze ? &veiled : NULL, end);
+    if (m->profiles) {
+        const struct kiln_volume_profile *profile =
+            write_profile(m, &record, &p, m->haze ? &veiled : NULL, end);
+        for (uint32_t i = 0; i < pixels->count; i++)
+            kiln_volume_profile_put(m->profiles, pixels->at[i], profile, i);
+    }
     if (m->haze)
         veil(&veiled, p.clear, p.smoke, p.flame);
-    store_pixels(m, &p, x, y);
+    store_rays(&p, rays);
+    return true;
 }
 
-static void draw(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile)
+/* Draws what a ray has seen over a pixel. */
+SIMD void put_ray(const struct kiln_volume_march *m, const float *ray, size_t pixel)
 {
-    for (uint32_t y = tile->y; y < tile->y + VOLUME_TILE && y < m->height; y++)
-        march_packet(m, tile, tile->x, y);
+    float *to = m->planes.smoke + 4 * pixel, *fire = m->planes.flame + 4 * pixel;
+    const float clear = 1.0f - ray[VOLUME_RAY_ALPHA];
+    for (int i = 0; i < 4; i++) {
+        to[i] = ray[VOLUME_RAY_SMOKE + i] + clear * to[i];
+        fire[i] = ray[VOLUME_RAY_FLAME + i] + clear * fire[i];
+    }
+    if (!m->planes.glow)
+        return;
+    float *glow = m->planes.glow + 4 * pixel;
+    for (int i = 0; i < 3; i++)
+        glow[i] = m->bloom * ray[VOLUME_RAY_FLAME + i] + clear * glow[i];
 }
 
-const struct kiln_volume_march_rows KILN_SIMD_NAME(kiln_volume_march_rows) = {.draw = draw};
+/* Marches the rays of pixels, draws what they see, and empties the packet. */
+SIMD_ONCE void draw_packet(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile,
+                           struct pixels *pixels)
+{
+    _Alignas(32) float rays[VOLUME_PACKET * VOLUME_RAY];
+    if (march_packet(m, tile, pixels, rays))
+        for (uint32_t i = 0; i < pixels->count; i++)
+            put_ray(m, rays + (size_t)i * VOLUME_RAY, pixels->at[i]);
+    memset(pixels, 0, sizeof *pixels);
+}
+
+/* Packets are blocks of pixels, whose rays meet the same bricks. */
+static void draw_all(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile)
+{
+    struct pixels pixels = {.count = 0};
+    for (uint32_t block = 0; block < VOLUME_TILE; block++) {
+        const uint32_t x = tile->x + block % 2 * 4, y = tile->y + block / 2 * 2;
+        for (uint32_t i = 0; i < VOLUME_PACKET; i++)
+            if (x + i % 4 < m->width && y + i / 4 < m->height)
+                add_pixel(m, &pixels, x + i % 4, y + i / 4);
+        if (pixels.count > 0)
+            draw_packet(m, tile, &pixels);
+    }
+}
+
+/* ---- every second pixel ---------------------------------------------------------------------- */
+
+static void march_grid(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile)
+{
+    _Alignas(32) float rays[VOLUME_PACKET * VOLUME_RAY];
+    for (uint32_t y = tile->y; y < tile->y + VOLUME_TILE; y += 4) {
+        struct pixels pixels = {.count = 0};
+        for (uint32_t i = 0; i < VOLUME_PACKET; i++) {
+            const uint32_t column = tile->x + i % 4 * 2, row = y + i / 4 * 2;
+            if (column < m->width && row < m->height)
+                add_pixel(m, &pixels, column, row);
+        }
+        if (pixels.count == 0 || !march_packet(m, tile, &pixels, rays))
+            continue;
+        for (uint32_t i = 0; i < pixels.count; i++) {
+            float *to =
+                kiln_volume_grid_ray(m, pixels.at[i] % m->width / 2, pixels.at[i] / m->width / 2);
+            memcpy(to, rays + (size_t)i * VOLUME_RAY, VOLUME_RAY_END * sizeof *to);
+        }
+    }
+}
+
+static void draw_between(const struct kiln_volume_march *m, const struct kiln_volume_tile *tile)
+{
+    struct pixels pixels = {.count = 0};
+    const bool wide = cells_are_wide(m, tile->near_m);
+    for (uint32_t i = 0; i < VOLUME_TILE * VOLUME_TILE; i++) {
+        const uint32_t x = tile->x + i % VOLUME_TILE, y = tile->y + i / VOLUME_TILE;
+        if (x >= m->width || y >= m->height)
+            continue;
+        float ray[VOLUME_RAY];
+        if (x % 2 == 0 && y % 2 == 0) {
+            put_ray(m, kiln_volume_grid_ray(m, x / 2, y / 2), (size_t)y * m->width + x);
+        } else if (wide && find_between(m, x, y, ray) && halfway_between(m, x, y)) {
+            put_ray(m, ray, (size_t)y * m->width + x);
+            if (m->profiles)
+                kiln_volume_profile_between(m->profiles, (size_t)y * m->width + x);
+        } else {
+            add_pixel(m, &pixels, x, y);
+            if (pixels.count == VOLUME_PACKET)
+                draw_packet(m, tile, &pixels);
+        }
+    }
+    if (pixels.count > 0)
+        draw_packet(m, tile, &pixels);
+}
+
+const struct kiln_volume_march_rows KILN_SIMD_NAME(kiln_volume_march_rows) = {
+    .draw = draw_all, .march_grid = march_grid, .draw_between = draw_between};

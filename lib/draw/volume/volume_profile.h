@@ -15,7 +15,7 @@
 #include "particles/gas.h"
 
 enum {
-    VOLUME_PACKET = 8, /* pixels side by side in a row whose rays march together */
+    VOLUME_PACKET = 8, /* pixels whose rays march together */
     VOLUME_TILE = 8,   /* pixels along an edge of a tile */
     VOLUME_NODES = 32, /* most places of a ray */
 };
@@ -29,6 +29,9 @@ enum {
 };
 #define VOLUME_DEPTH_UNIT (1.0f / 8192.0f)
 
+/* The unit of places in the memory of profiles, bytes. */
+#define VOLUME_PROFILE_UNIT 64
+
 /* Gas that lets less than this part of the light through hides all that is behind it. */
 #define VOLUME_OPAQUE_BELOW 0.002f
 
@@ -41,34 +44,63 @@ struct kiln_volume_profile {
 };
 
 /* Returns the distances of the places, in steps from the eye, ascending. */
-static inline float *kiln_volume_places(struct kiln_volume_profile *profile)
+static inline float *kiln_volume_places(const struct kiln_volume_profile *profile)
 {
-    return (float *)(profile + 1);
+    return (float *)(void *)(profile + 1);
 }
 
 /* Returns the numbers of a place, of all pixels. */
-static inline uint16_t *kiln_volume_node(struct kiln_volume_profile *profile, uint32_t place)
+static inline uint16_t *kiln_volume_node(const struct kiln_volume_profile *profile, uint32_t place)
 {
     const size_t floats = ((size_t)profile->count + 15) / 16 * 16;
     return (uint16_t *)(kiln_volume_places(profile) + floats) +
            (size_t)place * VOLUME_PACKET * VOLUME_NODE;
 }
 
+/* Returns the tiles along an edge of a picture. */
+static inline uint32_t kiln_tiles_along(uint32_t pixels)
+{
+    return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
+}
+
+/* What a pixel has in place of the number of a profile. */
+enum {
+    VOLUME_NO_PROFILE, /* no gas is seen there */
+    VOLUME_BETWEEN /* its gas is the mean of that of its neighbours with a ray: the pixels of the
+                      2, or 4, nearest even columns and rows */
+};
+
 /* Holds the profiles of a domain. */
 struct kiln_volume_domain {
-    struct kiln_volume_profile **packets; /* rows of packets, in tiles that gas touches; NULL: the
-                                             packet meets no gas */
-    float *near_m;       /* of each tile: no gas is nearer, m; 1e9: there is none */
-    float bloom;         /* the part of the flames' light that glows */
-    char *memory;        /* of the profiles */
-    _Atomic size_t used; /* bytes of it */
+    uint32_t *profile_of; /* of each pixel: 8 times the place of its profile in `memory`, in units
+                             of VOLUME_PROFILE_UNIT, and its number in the profile's packet */
+    float *near_m;        /* of each tile: no gas is nearer, m; 1e9: there is none */
+    float bloom;          /* the part of the flames' light that glows */
+    char *memory;         /* of the profiles */
+    _Atomic size_t used;  /* bytes of it */
 };
+
+/* Says that a pixel, of number `pixel` in the picture, is number `lane` in the packet of a profile.
+ */
+static inline void kiln_volume_profile_put(struct kiln_volume_domain *domain, size_t pixel,
+                                           const struct kiln_volume_profile *profile, uint32_t lane)
+{
+    const size_t bytes = (size_t)((const char *)profile - domain->memory);
+    domain->profile_of[pixel] = (uint32_t)(bytes / VOLUME_PROFILE_UNIT) * VOLUME_PACKET + lane;
+}
+
+/* Says that the gas of a pixel is the mean of that of its neighbours. */
+static inline void kiln_volume_profile_between(struct kiln_volume_domain *domain, size_t pixel)
+{
+    domain->profile_of[pixel] = VOLUME_BETWEEN;
+}
 
 /* Holds the profiles of a picture. */
 struct kiln_volume_profiles {
     struct kiln_volume_domain domains[KILN_MAX_GAS]; /* from the nearest on */
     uint32_t count;                                  /* domains; 0: no gas is seen */
-    uint32_t across, tiles;                          /* packets of a row, and tiles in all */
+    uint32_t width, height;                          /* of the picture, px */
+    uint32_t across, tiles;                          /* tiles of a row, and in all */
 };
 
 /* Takes memory for the profiles of a packet with so many places, at most VOLUME_NODES, and sets

@@ -8,7 +8,7 @@
 static void put_row(const struct kiln_volume_put *job, size_t y,
                     void (*put)(const struct kiln_volume_put *job, size_t first))
 {
-    const size_t across = (job->width + VOLUME_TILE - 1) / VOLUME_TILE;
+    const size_t across = kiln_tiles_along(job->width);
     const uint8_t *touched = job->touched + y / VOLUME_TILE * across;
     for (size_t x = 0; x < job->width; x++)
         if (touched[x / VOLUME_TILE])

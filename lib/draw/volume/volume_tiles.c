@@ -122,8 +122,8 @@ bool kiln_volume_tiles_find(struct kiln_volume_tiles *tiles, const struct kiln_v
 {
     struct tiles_job job = {.tiles = tiles,
                             .march = march,
-                            .across = (march->width + VOLUME_TILE - 1) / VOLUME_TILE,
-                            .down = (march->height + VOLUME_TILE - 1) / VOLUME_TILE};
+                            .across = kiln_tiles_along(march->width),
+                            .down = kiln_tiles_along(march->height)};
     const float square = march->cell_m * march->cell_m;
     for (int i = 0; i < 3; i++) {
         job.view[0][i] = square * march->right[i];
