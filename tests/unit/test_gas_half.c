@@ -117,6 +117,34 @@ static void a_plane_needs_no_more_rays(void **state)
     gas_view_close(&f);
 }
 
+/* The layer of the depth of half opacity has no pixels with the mean of gas and of nothing. */
+static void depths_of_half_opacity_have_edges(void **state)
+{
+    (void)state;
+    static float full[SIZE * SIZE];
+    struct gas_view f;
+    struct kiln_error error = {0};
+    open_ball(&f, 3.0f);
+    f.layers = true;
+    f.scene->gas[0].look.resolution = KILN_GAS_FULL;
+    gas_view_draw(&f);
+    memcpy(full, kiln_image_host(&f.halfway, KILN_READ, &error), sizeof full);
+    f.scene->gas[0].look.resolution = KILN_GAS_HALF;
+    gas_view_draw(&f);
+    const float *half = kiln_image_host(&f.halfway, KILN_READ, &error);
+    int opaque = 0, other = 0;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        if ((half[i] < 1e9f) != (full[i] < 1e9f))
+            fail_msg("pixel %d, %d has %g instead of %g", i % SIZE, i / SIZE, (double)half[i],
+                     (double)full[i]);
+        opaque += full[i] < 1e9f;
+        other += half[i] != full[i];
+        assert_true(full[i] == 1e9f || fabs((double)half[i] - (double)full[i]) < 0.5 * 2.0 / CELLS);
+    }
+    assert_true(other > opaque / 10);
+    gas_view_close(&f);
+}
+
 static void bits_do_not_depend_on_levels_or_threads(void **state)
 {
     (void)state;
@@ -133,6 +161,7 @@ int main(void)
         cmocka_unit_test(pixels_between_rays_take_their_light),
         cmocka_unit_test(edges_of_the_scene_are_kept),
         cmocka_unit_test(a_plane_needs_no_more_rays),
+        cmocka_unit_test(depths_of_half_opacity_have_edges),
         cmocka_unit_test(bits_do_not_depend_on_levels_or_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
