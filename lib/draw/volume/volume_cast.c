@@ -52,7 +52,7 @@ static void empty_rows(void *context, size_t begin, size_t end, uint32_t worker)
         for (uint32_t column = 0; column < m->grid_across; column++) {
             float *ray = kiln_volume_grid_ray(m, column, (uint32_t)row);
             memset(ray, 0, VOLUME_RAY * sizeof *ray);
-            ray[VOLUME_RAY_END] = kiln_volume_ray_end(m, 2 * row * m->width + 2 * column);
+            ray[VOLUME_RAY_END] = kiln_volume_ray_end(m, 2 * (row * m->width + column));
         }
 }
 

@@ -20,7 +20,7 @@ static size_t bytes_of(uint32_t count)
            (size_t)count * VOLUME_PACKET * VOLUME_NODE * sizeof(uint16_t);
 }
 static_assert(sizeof(struct kiln_volume_profile) % VOLUME_PROFILE_UNIT == 0, "places of profiles");
-static_assert(VOLUME_PACKET * VOLUME_NODE * sizeof(uint16_t) % VOLUME_PROFILE_UNIT == 0,
+static_assert((size_t)VOLUME_PACKET * VOLUME_NODE * sizeof(uint16_t) % VOLUME_PROFILE_UNIT == 0,
               "as above");
 
 /* Returns the most packets of a picture. */

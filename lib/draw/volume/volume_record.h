@@ -40,7 +40,7 @@ SIMD void record_until(struct record *r, float step, const struct eight now[RECO
     while (r->first + (float)r->count * r->stride <= step) {
         if (r->count == RECORDS) {
             for (uint32_t i = 1; i < RECORDS / 2; i++)
-                memcpy(r->nodes[i], r->nodes[2 * i], sizeof r->nodes[i]);
+                memcpy(r->nodes[i], r->nodes[(size_t)2 * i], sizeof r->nodes[i]);
             r->count = RECORDS / 2;
             r->stride *= 2.0f;
             continue;
