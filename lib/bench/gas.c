@@ -1,5 +1,5 @@
 /* Runs the suite `gas` of `kiln bench`: steps of boxes of gas (gas_box.c), and a fire of the
- * library that is stepped, drawn, saved and exported. */
+ * library that is stepped, drawn (gas_drawn.c), saved and exported. */
 #include "bench/gas.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@
 
 #define FIRE "bench/gas.yaml"
 
-enum { MAX_TURNS = 5 };
+enum { MAX_TURNS = KILN_GAS_TURNS };
 
 bool kiln_bench_add_gas(const struct kiln_gas_sizes *sizes, uint32_t size, const char *measure,
                         const char *technique, const double *values, size_t count,
@@ -126,6 +126,7 @@ static bool make_fire(struct fire *f, struct kiln_error *error)
     const struct kiln_bench_run *run = f->sizes->run;
     struct kiln_settings settings = {.count = 0};
     set_scene(f->sizes, f->size, &settings);
+    kiln_set_picture(f->sizes->run, &settings, 1280, 720);
     f->scene = kiln_bench_load_scene(run, FIRE, &settings, error);
     f->threads = kiln_threads_create(run->params->threads);
     if (!f->scene)
@@ -295,15 +296,20 @@ static bool measure_fires(const struct kiln_gas_sizes *sizes, const char *state,
                           struct kiln_error *error)
 {
     struct fire fires[KILN_GAS_SIZES];
+    struct kiln_gas_drawing drawings[KILN_GAS_SIZES] = {{.turns = 0}};
     for (uint32_t i = 0; i < sizes->count; i++) {
         fires[i] = (struct fire){.sizes = sizes, .size = i};
         kiln_bench_say(sizes->run, "a fire of %d cells: steps and files", sizes->edges[i]);
-        const bool ok = make_fire(&fires[i], error) && take_turns(&fires[i], state, vdb, error);
-        finish_fire(&fires[i]);
+        struct fire *f = &fires[i];
+        const bool ok = make_fire(f, error) && take_turns(f, state, vdb, error) &&
+                        kiln_bench_draw_gas(sizes->run, f->scene, &f->pool, f->state.info.step,
+                                            f->threads, &drawings[i], error);
+        finish_fire(f);
         if (!ok)
             return false;
     }
-    return add_steps(sizes, fires, error) && add_files(sizes, fires, error);
+    return add_steps(sizes, fires, error) && add_files(sizes, fires, error) &&
+           kiln_bench_add_drawings(sizes, drawings, error);
 }
 
 /* ---- the suite ------------------------------------------------------------------------------- */

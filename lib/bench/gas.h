@@ -3,10 +3,11 @@
 #define KILN_BENCH_GAS_H
 
 #include "bench/suite.h"
+#include "draw/volume/volume.h"
 #include "sim/gas/kernels.h"
 #include "sim/gas/solver.h"
 
-enum { KILN_GAS_SIZES = 2 };
+enum { KILN_GAS_SIZES = 2, KILN_GAS_TURNS = 5 };
 
 /* The boxes of the suite: cells along their edges. */
 struct kiln_gas_sizes {
@@ -26,5 +27,20 @@ extern const char *const kiln_gas_pass_names[GAS_TIMERS];
 
 /* Add the parts about steps of boxes and their memory (gas_box.c). */
 bool kiln_bench_gas_boxes(const struct kiln_gas_sizes *sizes, struct kiln_error *error);
+
+/* What drawing a fire has taken, in turns: with each kiln_gas_resolution. */
+struct kiln_gas_drawing {
+    struct kiln_volume_costs costs[2][KILN_GAS_TURNS];
+    uint32_t turns;
+};
+
+/* Draws the gas of a fire at a step, on the host. The scene's resolution of gas changes. */
+bool kiln_bench_draw_gas(const struct kiln_bench_run *run, struct kiln_scene *scene,
+                         struct kiln_pool *pool, uint32_t step, struct kiln_threads *threads,
+                         struct kiln_gas_drawing *to, struct kiln_error *error);
+
+/* Adds the part about drawing, of a fire of each size. */
+bool kiln_bench_add_drawings(const struct kiln_gas_sizes *sizes,
+                             const struct kiln_gas_drawing drawings[], struct kiln_error *error);
 
 #endif

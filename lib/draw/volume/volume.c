@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/pages.h"
 #include "draw/light/sun_shade.h"
@@ -38,8 +39,19 @@ struct kiln_volume_stage {
     float *grid;   /* rays of every second pixel of every second row; NULL: no domain has it */
     float *passed; /* optical depth of the domains before one, of each pixel; NULL until needed */
     struct kiln_volume_profiles profiles;
+    struct kiln_volume_costs costs;
+    struct kiln_volume_counts counts;
+    double lap_s; /* processor time at the last call of end_lap */
     uint32_t width, height;
 };
+
+/* Adds the processor time since the last call to a cost. */
+static void end_lap(struct kiln_volume_stage *s, double *cost_s)
+{
+    const double now_s = kiln_clock_cpu_seconds();
+    *cost_s += now_s - s->lap_s;
+    s->lap_s = now_s;
+}
 
 static size_t tile_count(const struct kiln_scene *scene)
 {
@@ -261,13 +273,16 @@ static bool light_domain(struct kiln_volume_stage *s, const struct domain *domai
     kiln_gas_closed(gas, fire.closed);
     if (!kiln_volume_light_run(&s->slices, &s->field, &domain->light, job.rows, s->threads, error))
         return false;
+    end_lap(s, &s->costs.light_s);
     if (domain->glow * m->intensity > 0.0f &&
         !kiln_volume_glow_run(&s->glow, &s->field, &fire,
                               KILN_SIMD_PICK(kiln_volume_glow_rows, s->simd), s->threads, &job.lit,
                               error))
         return false;
+    end_lap(s, &s->costs.glow_s);
     kiln_threads_for(s->threads, s->field.count, 8, finish_blocks, &job);
     kiln_volume_field_join(&s->field, s->threads);
+    end_lap(s, &s->costs.light_s);
     return true;
 }
 
@@ -407,8 +422,10 @@ static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
                                               least / exact_max(flame * m->cell_m, 1e-30f),
                                           .albedo = {m->albedo[0], m->albedo[1], m->albedo[2]}};
     s->lit = false;
-    if (!kiln_volume_field_fill(&s->field, gas, &seen, s->threads, error) ||
-        (light && s->field.count > 0 && !light_domain(s, domain, gas, error)))
+    if (!kiln_volume_field_fill(&s->field, gas, &seen, s->threads, error))
+        return false;
+    end_lap(s, &s->costs.field_s);
+    if (light && s->field.count > 0 && !light_domain(s, domain, gas, error))
         return false;
     s->lit = light;
     return true;
@@ -429,8 +446,10 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
 {
     const uint32_t number = how->number;
     const struct kiln_gas *gas = &draw->pool->gas[number];
-    struct domain domain = {
-        .march = {.depth = how->depth, .halfway = how->halfway, .profiles = how->profiles}};
+    struct domain domain = {.march = {.depth = how->depth,
+                                      .halfway = how->halfway,
+                                      .profiles = how->profiles,
+                                      .counts = &s->counts}};
     place_rays(s->scene, &s->scene->gas[number], gas, draw->moment, &domain);
     set_look(s, number, draw->moment->view.clock.x, draw->backdrop, &domain);
     set_lamps(s, number, draw, &domain);
@@ -449,21 +468,12 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
                                           .tiles = &s->tiles,
                                           .touched = s->touched,
                                           .grid = half && !how->halfway_only ? s->grid : NULL};
-    return kiln_volume_cast(&cast, s->threads, error);
+    const bool ok = kiln_volume_cast(&cast, s->threads, error);
+    end_lap(s, &s->costs.march_s);
+    return ok;
 }
 
 /* ---- pictures -------------------------------------------------------------------------------- */
-
-static void clear_rows(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct kiln_volume_stage *s = context;
-    const size_t row = 4 * (size_t)s->width, floats = (end - begin) * row;
-    memset(s->planes.smoke + begin * row, 0, floats * sizeof(float));
-    memset(s->planes.flame + begin * row, 0, floats * sizeof(float));
-    if (s->planes.glow)
-        memset(s->planes.glow + begin * row, 0, floats * sizeof(float));
-}
 
 /* Sets that no gas of the picture is half opaque. */
 static bool begin_halfway(struct kiln_volume_stage *s, struct kiln_image *image,
@@ -507,6 +517,9 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
         draw->pool ? kiln_volume_order(stage->scene, moment, draw->pool, order) : 0;
     memset(stage->touched, 0, tile_count(stage->scene));
     stage->profiles.count = 0;
+    stage->costs = (struct kiln_volume_costs){.rays = 0};
+    atomic_store(&stage->counts.rays, 0);
+    atomic_store(&stage->counts.samples, 0);
     struct domain_draw how = {.kept = draw->same && count == 1};
     if (!begin_halfway(stage, draw->halfway, &how.halfway, error))
         return false;
@@ -518,9 +531,11 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
     if (stage->shade)
         kiln_sun_shade_place(stage->shade, moment);
     how.depth = kiln_image_host(draw->depth, KILN_READ, error);
+    struct kiln_volume_put empty = {.planes = &stage->planes, .width = stage->width};
     if (!how.depth ||
-        !kiln_threads_try(stage->threads, stage->height, 64, clear_rows, stage, error))
+        !kiln_threads_try(stage->threads, stage->height, 64, kiln_volume_clear_rows, &empty, error))
         return false;
+    stage->lap_s = kiln_clock_cpu_seconds();
     if (draw->halfway && count > 1) {
         if (!find_halfway(stage, draw, order, count, how, error))
             return false;
@@ -533,6 +548,14 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
             return false;
     }
     return true;
+}
+
+struct kiln_volume_costs kiln_volume_costs(const struct kiln_volume_stage *stage)
+{
+    struct kiln_volume_costs costs = stage->costs;
+    costs.rays = atomic_load(&stage->counts.rays);
+    costs.samples = atomic_load(&stage->counts.samples);
+    return costs;
 }
 
 const struct kiln_volume_profiles *kiln_volume_profiles(const struct kiln_volume_stage *stage)

@@ -55,6 +55,18 @@ struct kiln_volume_draw {
 bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
                       struct kiln_error *error);
 
+/* What a call of kiln_volume_draw has taken: seconds of all threads together, and the march. */
+struct kiln_volume_costs {
+    double field_s; /* copying gas to blocks */
+    double light_s; /* of sun, sky and lamps */
+    double glow_s;  /* the light of flames */
+    double march_s;
+    uint64_t rays, samples; /* rays that met gas, and places at which they were sampled */
+};
+
+/* Returns what the last call of kiln_volume_draw has taken. */
+struct kiln_volume_costs kiln_volume_costs(const struct kiln_volume_stage *stage);
+
 /* Returns the profiles of the gas that was drawn last; NULL if no gas was seen, or they were not
  * asked for. They are valid until the next call of kiln_volume_draw. */
 const struct kiln_volume_profiles *kiln_volume_profiles(const struct kiln_volume_stage *stage);

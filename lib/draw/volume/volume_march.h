@@ -3,6 +3,8 @@
 #ifndef KILN_DRAW_VOLUME_VOLUME_MARCH_H
 #define KILN_DRAW_VOLUME_VOLUME_MARCH_H
 
+#include <stdatomic.h>
+
 #include "base/simd.h"
 #include "draw/light/flame_colors.h"
 #include "draw/volume/volume_field.h"
@@ -41,6 +43,12 @@ struct kiln_volume_halfway {
     float *passed;  /* optical depth of the gas of nearer domains */
 };
 
+/* Counts what a march has done. */
+struct kiln_volume_counts {
+    _Atomic uint64_t rays;    /* which met gas */
+    _Atomic uint64_t samples; /* of them */
+};
+
 /* Describes the march through a domain. */
 struct kiln_volume_march {
     const struct kiln_volume_field *field;
@@ -68,6 +76,7 @@ struct kiln_volume_march {
     struct kiln_volume_planes planes;    /* smoke NULL: there are none */
     struct kiln_volume_halfway halfway;  /* is written on; depth_m NULL: not needed */
     struct kiln_volume_domain *profiles; /* which are written; NULL: they are not needed */
+    struct kiln_volume_counts *counts;
     /* Of the march of every second pixel of every second row: */
     float *grid;                     /* rays, row by row */
     uint32_t grid_across, grid_down; /* rays in a row, and rows */

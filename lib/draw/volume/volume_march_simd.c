@@ -96,19 +96,23 @@ SIMD struct eight sample_block(const float *at, float x, float y, float z)
 }
 
 /* Samples the floats of cells for each ray; zeros where a ray has no block. blocks: of the field.
- */
-SIMD void sample_floats(const float *blocks, const struct places *at,
-                        struct eight values[VOLUME_CELL])
+ * Returns the number of rays that have one. */
+SIMD uint32_t sample_floats(const float *blocks, const struct places *at,
+                            struct eight values[VOLUME_CELL])
 {
     _Alignas(32) float cells[8 * VOLUME_CELL];
+    uint32_t count = 0;
     for (ptrdiff_t i = 0; i < 8; i++) {
         struct eight cell = {{{0}}};
-        if (at->block[i] >= 0)
+        if (at->block[i] >= 0) {
             cell = sample_block(blocks + (size_t)at->block[i] * VOLUME_BLOCK + at->cell[i],
                                 at->part[0][i], at->part[1][i], at->part[2][i]);
+            count++;
+        }
         eight_store(cells + i * VOLUME_CELL, cell);
     }
     eight_columns(cells, values);
+    return count;
 }
 
 /* Returns whether sampled cells have neither smoke nor flames, so that they change no ray. */
@@ -397,7 +401,7 @@ SIMD float march_rays(const struct kiln_volume_march *m, const struct kiln_volum
         if (record)
             record_packet(record, p, step);
         struct eight values[VOLUME_CELL], tints[3];
-        sample_floats(m->field->blocks, &at, values);
+        p->samples += sample_floats(m->field->blocks, &at, values);
         drawn = step + 1.0f;
         if (is_clear(values)) { /* a step that changes no bit */
             step += 1.0f;
@@ -443,6 +447,8 @@ SIMD_ONCE bool march_packet(const struct kiln_volume_march *m, const struct kiln
     const float end = march_rays(m, tile, &p, m->profiles ? &record : NULL);
     if (end < 0.0f)
         return false;
+    atomic_fetch_add_explicit(&m->counts->rays, pixels->count, memory_order_relaxed);
+    atomic_fetch_add_explicit(&m->counts->samples, p.samples, memory_order_relaxed);
     if (m->halfway.depth_m)
         halfway_store(m, &p.halfway, p.metre, p.depth, pixels);
     if (!m->planes.smoke)

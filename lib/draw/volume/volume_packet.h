@@ -43,6 +43,7 @@ struct packet {
     struct eight smoke[3], flame[3];
     struct eight weight, far; /* of what is seen: its amount, and that times its distance, cells */
     struct halfway halfway;   /* set if the march asks for it */
+    uint32_t samples;         /* of all rays so far */
 };
 
 /* Returns the phase function of Henyey and Greenstein in parts of an even one. */

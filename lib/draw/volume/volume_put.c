@@ -52,6 +52,17 @@ static void clear_row(const struct kiln_volume_put *job, size_t y)
     memset(job->to + y * row, 0, row * sizeof *job->to);
 }
 
+void kiln_volume_clear_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_volume_put *job = context;
+    const size_t row = 4 * (size_t)job->width, bytes = (end - begin) * row * sizeof(float);
+    memset(job->planes->smoke + begin * row, 0, bytes);
+    memset(job->planes->flame + begin * row, 0, bytes);
+    if (job->planes->glow)
+        memset(job->planes->glow + begin * row, 0, bytes);
+}
+
 void kiln_volume_put_under_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;

@@ -19,6 +19,9 @@ struct kiln_volume_put {
 /* These functions have the form that kiln_threads_try takes; context: a kiln_volume_put. They write
  * rows [begin, end). */
 
+/* Clears the planes; uses nothing but them and the width. */
+void kiln_volume_clear_rows(void *context, size_t begin, size_t end, uint32_t worker);
+
 /* Puts gas under premultiplied particles. */
 void kiln_volume_put_under_rows(void *context, size_t begin, size_t end, uint32_t worker);
 

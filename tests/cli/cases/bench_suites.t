@@ -130,6 +130,10 @@ $ kiln bench gas --quick --quiet --device cpu --format json >gas.json; jq -r '.p
 1|ms; bytes an active cell
 1|export load save state
 1|bytes; ms
+1|gas_march
+1|ms
+1|field glow light march
+1|all; full; half
 1|gas_drawn
 1|ms
 1|frame gas simulate
