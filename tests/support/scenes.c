@@ -48,7 +48,7 @@ struct kiln_scene *load_coarse_scene(const char *path, const char *const *overri
     }
     struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
     if (scene && scene->gas_count > 0) {
-        list[params.override_count++] = "gas.*.cells=32";
+        list[params.override_count++] = "gas.*.cells=40";
         kiln_scene_destroy(&scene);
         scene = kiln_scene_load(path, &params, &error);
     }

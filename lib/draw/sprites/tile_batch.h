@@ -190,6 +190,22 @@ SIMD void blend_in_gas(const struct target *d, const int32_t *at, const struct g
     }
 }
 
+/* Returns the part of vector i of a batch that the sprite's opacity and what it fades by leave.
+ * alpha: of its colour. */
+SIMD vf left_of(const struct batch *batch, int i, const struct target *d, vf alpha, bool deep)
+{
+    const struct kiln_sprite *s = d->s;
+    vf left = vf_where(batch->inside[i], vf_all(s->opacity));
+    if (!d->brush.unfaded) {
+        const vf depth = deep ? batch->depth[i] : vf_all(s->depth);
+        const vf scene = vf_load_units(d->tile->pixels[0][KILN_TILE_DEPTH], batch->at[i]);
+        left = fade(s, d->extra, scene, depth, batch->inside[i]);
+    }
+    if (s->flags & KILN_SPRITE_LITERAL) /* equation 3.3 has no bound: limits alpha to 1 */
+        left = vf_min(left, 1.0f / vf_max(alpha, vf_all(1e-6f)));
+    return d->brush.rim ? left * batch->rim[i] : left;
+}
+
 /* Draws vector i of a batch behind the sprites that were drawn before. */
 SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, struct shaded c,
                       bool multiplied, bool deep, bool covers)
@@ -198,16 +214,7 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
     const struct kiln_sprite *s = d->s;
     const bool over = d->tile->over;
     const int32_t *at = batch->at[i];
-    vf left = vf_where(batch->inside[i], vf_all(s->opacity)), before = vf_all(0.0f);
-    if (!d->brush.unfaded) {
-        vf depth = deep ? batch->depth[i] : vf_all(s->depth);
-        left =
-            fade(s, d->extra, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
-    }
-    if (s->flags & KILN_SPRITE_LITERAL) /* equation 3.3 has no bound: limits alpha to 1 */
-        left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
-    if (d->brush.rim)
-        left *= batch->rim[i];
+    vf left = left_of(batch, i, d, c.alpha, deep), before = vf_all(0.0f);
     struct gas_before gas;
     if (d->behind_gas)
         find_gas(d->tile, at, deep ? batch->depth[i] : vf_all(s->depth), &gas);

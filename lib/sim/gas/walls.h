@@ -62,7 +62,8 @@ static void gather_walls(const struct around *around, struct gas_workspace *spac
     uint32_t some[GAS_EDGE][GAS_EDGE];
     for (int32_t z = 0; z < GAS_EDGE; z++)
         for (int32_t y = 0; y < GAS_EDGE; y++)
-            some[z][y] = gather_wall_row(around, y, z, space->wall + z * WALL_PLANE + y * WALL_ROW);
+            some[z][y] = gather_wall_row(
+                around, y, z, space->wall + (ptrdiff_t)z * WALL_PLANE + (ptrdiff_t)y * WALL_ROW);
     find_near_walls(some, space);
 }
 

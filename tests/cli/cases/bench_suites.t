@@ -125,7 +125,7 @@ $ kiln bench gas --quick --quiet --device cpu --format json >gas.json; jq -r '.p
 1|gas_fire
 1|ns an active cell
 1|diverge pressure project push react sources step trace
-1|auto
+1|gas=cpu
 1|gas_files
 1|ms; bytes an active cell
 1|export load save state
