@@ -221,16 +221,14 @@ void gas_new_air_bounds(struct gas_lattice *forces, const struct kiln_gas *gas,
     for (int axis = 0; axis < 3; axis++)
         forces->least[axis] = forces->most[axis] = exact_canon(rest_at_point(rest, axis, corner));
     for (int32_t z = 0; z <= last[2]; z++)
-        for (int32_t y = 0; y <= last[1]; y++)
-            for (int32_t x = 0; x <= last[0]; x++) {
-                const bool border =
-                    x == 0 || y == 0 || z == 0 || x == last[0] || y == last[1] || z == last[2];
+        for (int32_t y = 0; y <= last[1]; y++) {
+            const bool border = y == 0 || z == 0 || y == last[1] || z == last[2];
+            const float4 *row =
+                forces->points + (size_t)z * forces->plane + (size_t)y * forces->row;
+            for (int32_t x = 0; x <= last[0]; x += border ? 1 : last[0]) {
                 const float place[3] = {corner[0] + (float)x * apart, corner[1] + (float)y * apart,
                                         corner[2] + (float)z * apart};
-                if (border)
-                    include_point(forces, rest,
-                                  forces->points[(uint32_t)z * forces->plane +
-                                                 (uint32_t)y * forces->row + (uint32_t)x],
-                                  drag, place);
+                include_point(forces, rest, row[x], drag, place);
             }
+        }
 }
