@@ -108,6 +108,27 @@ static void moments_show_the_same_gas(void **state)
     kiln_picture_destroy(&three);
 }
 
+/* Holds pictures of a scene without gas, and with it. */
+struct both {
+    struct kiln_picture *without, *with;
+};
+
+static struct both draw_both(struct gas_frame frame, float smoke, float flame)
+{
+    struct both both = {.without = gas_frame_draw(NULL, &frame)};
+    frame.domain = true;
+    frame.smoke = smoke;
+    frame.flame = flame;
+    both.with = gas_frame_draw(NULL, &frame);
+    return both;
+}
+
+static void finish_both(struct both *both)
+{
+    kiln_picture_destroy(&both->without);
+    kiln_picture_destroy(&both->with);
+}
+
 static void particles_lie_over_gas(void **state)
 {
     (void)state;
@@ -119,18 +140,14 @@ static void particles_lie_over_gas(void **state)
             .count = 2,
             .steps = 20,
             .techniques = FRAME_CPU};
-        struct kiln_picture *without = gas_frame_draw(NULL, &frame);
-        frame.domain = true;
-        frame.flame = 0.5f;
-        struct kiln_picture *with = gas_frame_draw(NULL, &frame);
+        struct both both = draw_both(frame, 0.0f, 0.5f);
         /* The black squares hide the gas in the middle; with `separate`, flames shine through. */
-        const float *beauty = with->layers[FRAME_BEAUTY].pixels;
-        const double before = luminance(without->layers[FRAME_BEAUTY].pixels + MIDDLE);
+        const float *beauty = both.with->layers[FRAME_BEAUTY].pixels;
+        const double before = luminance(both.without->layers[FRAME_BEAUTY].pixels + MIDDLE);
         const double flames = i % 4 == 1 ? 2.0 : 0.0;
         assert_near(luminance(beauty + MIDDLE), before + flames, 5e-3);
-        assert_near(luminance(with->layers[FRAME_BLOOM].pixels + MIDDLE), 0.25 * flames, 5e-3);
-        kiln_picture_destroy(&without);
-        kiln_picture_destroy(&with);
+        assert_near(luminance(both.with->layers[FRAME_BLOOM].pixels + MIDDLE), 0.25 * flames, 5e-3);
+        finish_both(&both);
     }
 }
 
@@ -150,16 +167,12 @@ static void gas_dims_the_glow_behind_it(void **state)
 {
     (void)state;
     struct gas_frame frame = {.text = GLOWING, .steps = 20, .techniques = FRAME_CPU};
-    struct kiln_picture *without = gas_frame_draw(NULL, &frame);
-    frame.domain = true;
-    frame.smoke = 1.0f;
-    struct kiln_picture *with = gas_frame_draw(NULL, &frame);
-    const double before = luminance(without->layers[FRAME_BLOOM].pixels + MIDDLE);
+    struct both both = draw_both(frame, 1.0f, 0.0f);
+    const double before = luminance(both.without->layers[FRAME_BLOOM].pixels + MIDDLE);
     assert_true(before > 0.5);
-    assert_near(luminance(with->layers[FRAME_BLOOM].pixels + MIDDLE), before * (1.0 - HIDDEN),
+    assert_near(luminance(both.with->layers[FRAME_BLOOM].pixels + MIDDLE), before * (1.0 - HIDDEN),
                 2e-3);
-    kiln_picture_destroy(&without);
-    kiln_picture_destroy(&with);
+    finish_both(&both);
 }
 
 /* A square of fire behind the gas, in the middle of the picture, which does not glow. */
@@ -184,19 +197,14 @@ static void fire_behind_flames_adds_to_them(void **state)
                                   .count = 1,
                                   .steps = 20,
                                   .techniques = FRAME_CPU};
-        struct kiln_picture *without = gas_frame_draw(NULL, &frame);
-        frame.domain = true;
-        frame.smoke = 1.0f;
-        frame.flame = 0.1f;
-        struct kiln_picture *with = gas_frame_draw(NULL, &frame);
+        struct both both = draw_both(frame, 1.0f, 0.1f);
         const double flames = 0.2 / 0.5 * HIDDEN;
-        const double before = luminance(without->layers[FRAME_FIRE].pixels + MIDDLE);
+        const double before = luminance(both.without->layers[FRAME_FIRE].pixels + MIDDLE);
         assert_true(before > 0.1);
-        assert_near(luminance(with->layers[FRAME_FIRE].pixels + MIDDLE),
+        assert_near(luminance(both.with->layers[FRAME_FIRE].pixels + MIDDLE),
                     before * (1.0 - HIDDEN) + flames, 3e-3);
-        assert_near(luminance(with->layers[FRAME_BLOOM].pixels + MIDDLE), 0.25 * flames, 1e-3);
-        kiln_picture_destroy(&without);
-        kiln_picture_destroy(&with);
+        assert_near(luminance(both.with->layers[FRAME_BLOOM].pixels + MIDDLE), 0.25 * flames, 1e-3);
+        finish_both(&both);
     }
 }
 
@@ -209,14 +217,11 @@ static void a_domain_without_gas_changes_nothing(void **state)
                                   .count = 1,
                                   .steps = 20,
                                   .techniques = FRAME_CPU};
-        struct kiln_picture *without = gas_frame_draw(NULL, &frame);
-        frame.domain = true;
-        struct kiln_picture *empty = gas_frame_draw(NULL, &frame);
-        assert_memory_equal(without->display, empty->display, WIDTH * HEIGHT * 4);
+        struct both both = draw_both(frame, 0.0f, 0.0f);
+        assert_memory_equal(both.without->display, both.with->display, WIDTH * HEIGHT * 4);
         for (int layer = 0; layer < FRAME_LAYERS; layer++)
-            assert_near(frame_difference(without, empty, layer), 0.0, 1e-6);
-        kiln_picture_destroy(&without);
-        kiln_picture_destroy(&empty);
+            assert_near(frame_difference(both.without, both.with, layer), 0.0, 1e-6);
+        finish_both(&both);
     }
 }
 
