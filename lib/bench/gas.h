@@ -28,7 +28,7 @@ extern const char *const kiln_gas_pass_names[GAS_TIMERS];
 /* Add the parts about steps of boxes and their memory (gas_box.c). */
 bool kiln_bench_gas_boxes(const struct kiln_gas_sizes *sizes, struct kiln_error *error);
 
-/* What drawing a fire has taken, in turns: with each kiln_gas_resolution. */
+/* Holds what drawing a fire has taken, in turns: with each kiln_gas_resolution. */
 struct kiln_gas_drawing {
     struct kiln_volume_costs costs[2][KILN_GAS_TURNS];
     uint32_t turns;

@@ -394,7 +394,7 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
                     error);
 }
 
-/* The layers of a frame. Those from LAYER_DENSITY on are layers of gas. */
+/* Numbers the layers of a frame. Those from LAYER_DENSITY on are layers of gas. */
 enum {
     LAYER_BEAUTY,
     LAYER_DEPTH,
@@ -444,7 +444,7 @@ static bool read_layer(struct kiln_stages *s, struct kiln_image *image, bool dra
     return kiln_threads_copy(s->threads, layer->pixels, pixels, floats * sizeof(float), error);
 }
 
-/* The image of gas, and the layers that it is parted into. */
+/* Holds the image of gas, and the layers that it is parted into. */
 struct gas_layers {
     const float *gas;
     float *density, *emission;

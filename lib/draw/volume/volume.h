@@ -55,7 +55,8 @@ struct kiln_volume_draw {
 bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
                       struct kiln_error *error);
 
-/* What a call of kiln_volume_draw has taken: seconds of all threads together, and the march. */
+/* Holds what a call of kiln_volume_draw has taken: seconds of all threads together, and the work of
+ * the march. */
 struct kiln_volume_costs {
     double field_s; /* copying gas to blocks */
     double light_s; /* of sun, sky and lamps */

@@ -15,7 +15,7 @@ size_t kiln_volume_grid_bytes(uint32_t width, uint32_t height)
     return (size_t)grid_along(width) * grid_along(height) * VOLUME_RAY * sizeof(float);
 }
 
-/* A visit of all tiles. */
+/* Describes a visit of all tiles. */
 struct visit {
     const struct kiln_volume_cast *cast;
     void (*tile)(const struct kiln_volume_march *march, const struct kiln_volume_tile *tile);

@@ -77,7 +77,8 @@ struct kiln_volume_march {
     struct kiln_volume_halfway halfway;  /* is written on; depth_m NULL: not needed */
     struct kiln_volume_domain *profiles; /* which are written; NULL: they are not needed */
     struct kiln_volume_counts *counts;
-    /* Of the march of every second pixel of every second row: */
+    /* The members below are those of a grid, which has a ray for every second pixel of every second
+     * row (volume_cast.h). */
     float *grid;                     /* rays, row by row */
     uint32_t grid_across, grid_down; /* rays in a row, and rows */
     float far_m;                     /* depth behind which the domain has no gas */

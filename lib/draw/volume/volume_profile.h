@@ -63,7 +63,7 @@ static inline uint32_t kiln_tiles_along(uint32_t pixels)
     return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
 }
 
-/* What a pixel has in place of the number of a profile. */
+/* Lists the numbers that pixels without a profile of their own have in its place. */
 enum {
     VOLUME_NO_PROFILE, /* no gas is seen there */
     VOLUME_BETWEEN /* its gas is the mean of that of its neighbours with a ray: the pixels of the
