@@ -25,14 +25,14 @@ set(kiln_test_times
         hostile_slow_helper mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.planted tree.size unit.bounces
         unit.depth_maps unit.fragments unit.gas_matter unit.gas_solids unit.gas_sources unit.gas_states unit.image unit.output unit.parts unit.scene_place unit.sort unit.sources unit.state unit.stopping
         unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"
-    "5 tree.conversions completion.zsh all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
+    "5 tree.conversions gpu.gas_frames unit.gas_depth completion.zsh all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
         gpu.backdrop_shapes gpu.occlusion gpu.particles gpu.rasters hostile_smoke install mutation.nodes
         mutation.shapes mutation.turned python.module queue.smoke unit.clips unit.field unit.gas_window unit.sun_cover"
     "10 hostile_results cli.new all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.gas_jobs cli.render cli.stop docs.scenes
         fuzz.mesh golden.software gpu.baked gpu.billboards gpu.crowds gpu.instances gpu.lens gpu.long_loops gpu.oit gpu.shadows
         gpu.shutter gpu.sort gpu.sources gpu.states hostile_swap mutation.effects package.lintian unit.baked unit.host unit.motion
         unit.slots unit.gas_new_air versions.0.1"
-    "20 gpu.gas all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort all.gpu.sources
+    "20 gpu.gas gpu.gas_depth all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort all.gpu.sources
         all.unit.fragments all.unit.host/3 all.unit.sizes cli.sizes golden.readers gpu.backdrops
         queue.attacks report.page tree.flicker"
     "40 all.gpu.backdrops/2 all.gpu.baked all.gpu.crowds all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.events

@@ -304,7 +304,7 @@ static bool blends_with_gas(const struct kiln_stages *s)
 {
     const uint64_t systems =
         transparent_systems(s, KILN_BLEND_ADD) | transparent_systems(s, KILN_BLEND_ALPHA);
-    return systems != 0 && kiln_particles_blends_with_gas(s->particles);
+    return systems != 0;
 }
 
 /* Draws gas, and its glow, before the particles. With `separate` the glow of flames comes later, as

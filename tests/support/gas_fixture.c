@@ -1,4 +1,4 @@
-/* Fills windows of gas with smooth balls of smoke and fire, or evenly. */
+/* Fills windows of gas with smooth or lumpy balls of smoke and fire, or evenly. */
 #include "support/gas_fixture.h"
 
 #include <math.h>
@@ -52,5 +52,27 @@ void gas_fixture_ball(struct kiln_gas *gas, int32_t n, float cell, float radius,
                 float *q = gas->brick[at].now + ((z % 8 * 8 + y % 8) * 8 + x % 8) * GAS_CARRIED;
                 q[GAS_SMOKE] = part * smoke;
                 q[GAS_TEMPERATURE] = q[GAS_FLAME] = dy > 0.0f ? part * heat : 0.0f;
+            }
+}
+
+void gas_fixture_lumps(struct kiln_gas *gas, int32_t cells)
+{
+    const float middle = 0.5f * (float)(cells - 1), scale = 64.0f / (float)cells;
+    gas_fixture_ball(gas, cells, 2.0f / (float)cells, 0.45f, 1.0f, 1.0f);
+    for (int32_t z = 0; z < cells; z++)
+        for (int32_t y = 0; y < cells; y++)
+            for (int32_t x = 0; x < cells; x++) {
+                const size_t number =
+                    kiln_gas_brick_index(gas, x / GAS_BRICK, y / GAS_BRICK, z / GAS_BRICK);
+                const int32_t in =
+                    (z % GAS_BRICK * GAS_BRICK + y % GAS_BRICK) * GAS_BRICK + x % GAS_BRICK;
+                if (!gas->brick[number].now)
+                    continue;
+                float *cell = gas->brick[number].now + (ptrdiff_t)in * GAS_CARRIED;
+                const float a = scale * ((float)x - middle), b = scale * ((float)y - middle);
+                const float c = scale * ((float)z - middle);
+                const float radius = sqrtf(a * a + b * b + c * c);
+                cell[GAS_SMOKE] *= 0.55f + 0.45f * sinf(0.5f * a) * sinf(0.4f * b) * sinf(0.6f * c);
+                cell[GAS_FLAME] *= fabsf(radius - 22.0f) < 2.0f ? 1.0f : 0.0f;
             }
 }

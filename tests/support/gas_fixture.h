@@ -11,6 +11,11 @@
 void gas_fixture_ball(struct kiln_gas *gas, int32_t n, float cell, float radius, float smoke,
                       float heat);
 
+/* Makes a domain of 2 m and cells^3 cells in the same place, with a ball of smoke, in the upper
+ * half of which flames are a thin shell. The smoke is of lumps, so that its density changes from
+ * cell to cell. The caller finishes it. */
+void gas_fixture_lumps(struct kiln_gas *gas, int32_t cells);
+
 /* Makes a domain of n^3 cells in the same place that is filled evenly. The caller finishes it. */
 void gas_fixture_full(struct kiln_gas *gas, int32_t n, float cell, float smoke, float temperature,
                       float flame);

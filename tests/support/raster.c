@@ -1,5 +1,5 @@
-/* Makes the input of the raster technique `cpu` (atlas, target images, particles and light), and
- * draws with it, all on the host, so that tests of it need no GL. */
+/* Makes the input of the raster techniques (atlas, target images, particles and light), and draws
+ * with them: with `cpu` all on the host, so that tests of it need no GL. */
 #include "support/raster.h"
 
 #include <stdlib.h>
@@ -27,8 +27,18 @@ struct kiln_particle raster_random_particle(float x, float y, float z, uint32_t 
 void raster_open(struct raster *r, struct kiln_scene *scene, uint32_t columns, uint32_t rows,
                  uint32_t step)
 {
+    raster_open_on(r, NULL, KILN_RASTER_CPU, scene, columns, rows, step);
+}
+
+void raster_open_on(struct raster *r, struct kiln_device *device,
+                    enum kiln_raster_technique technique, struct kiln_scene *scene,
+                    uint32_t columns, uint32_t rows, uint32_t step)
+{
     struct kiln_error error = {0};
-    *r = (struct raster){.scene = scene, .threads = kiln_threads_create(2)};
+    *r = (struct raster){.device = device,
+                         .technique = technique,
+                         .scene = scene,
+                         .threads = kiln_threads_create(2)};
     struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
@@ -38,9 +48,10 @@ void raster_open(struct raster *r, struct kiln_scene *scene, uint32_t columns, u
                                                   .rows = rows,
                                                   .motion = look->motion};
     }
-    if (!kiln_atlas_init(&r->atlas, NULL, requests, scene->system_count, NULL, r->threads, &error))
+    if (!kiln_atlas_init(&r->atlas, device, requests, scene->system_count, NULL, r->threads,
+                         &error))
         fail_msg("%s", error.message);
-    if (!kiln_moment_init(&r->moment, NULL, scene, &r->atlas, &error) ||
+    if (!kiln_moment_init(&r->moment, device, scene, &r->atlas, &error) ||
         !kiln_moment_fill(&r->moment, NULL, kiln_instant_at_step(step), false, &error))
         fail_msg("%s", error.message);
     r->light = (struct kiln_draw_backdrop){.sky_top = {0.2f, 0.3f, 0.5f, 0.0f},
@@ -62,11 +73,12 @@ float *raster_add_targets(struct raster *r)
 {
     struct kiln_error error = {0};
     const uint32_t width = r->scene->width, height = r->scene->height;
-    kiln_image_init(&r->depth, NULL, width, height, GL_R32F, "depth");
-    kiln_image_init(&r->color, NULL, width, height, GL_RGBA32F, "color");
-    kiln_image_init(&r->bloom, NULL, width, height, GL_RGBA32F, "bloom");
-    kiln_image_init(&r->added, NULL, width, height, GL_RGBA32F, "added");
-    r->framebuffer = (struct kiln_framebuffer){.images = {&r->color, &r->bloom}, .count = 2};
+    kiln_image_init(&r->depth, r->device, width, height, GL_R32F, "depth");
+    kiln_image_init(&r->color, r->device, width, height, GL_RGBA32F, "color");
+    kiln_image_init(&r->bloom, r->device, width, height, GL_RGBA32F, "bloom");
+    kiln_image_init(&r->added, r->device, width, height, GL_RGBA32F, "added");
+    struct kiln_image *targets[] = {&r->color, &r->bloom};
+    assert_true(kiln_framebuffer_init(&r->framebuffer, r->device, targets, 2, &error));
     float *depth = kiln_image_host(&r->depth, KILN_OVERWRITE, &error);
     assert_non_null(depth);
     for (uint32_t i = 0; i < width * height; i++)
@@ -79,8 +91,8 @@ void raster_add_particles(struct raster *r, uint32_t capacity, uint32_t count,
 {
     struct kiln_error error = {0};
     r->count = count;
-    pool_init_even(&r->pool, NULL, r->scene, capacity);
-    kiln_buffer_init(&r->entries, NULL, count * sizeof(uint32_t), "entries");
+    pool_init_even(&r->pool, r->device, r->scene, capacity);
+    kiln_buffer_init(&r->entries, r->device, count * sizeof(uint32_t), "entries");
     *records = kiln_buffer_host(&r->pool.records, KILN_OVERWRITE, &error);
     *entries = kiln_buffer_host(&r->entries, KILN_OVERWRITE, &error);
     assert_true(*records && *entries);
@@ -107,19 +119,26 @@ void raster_draw(struct raster *r, const struct kiln_particles_draw *job, uint32
 {
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(thread_count);
-    struct kiln_particles_stage *stage =
-        kiln_particles_create(NULL, r->scene, &r->atlas, KILN_RASTER_CPU, threads, &error);
+    struct kiln_particles_stage *stage = r->stage;
+    if (!stage)
+        stage =
+            kiln_particles_create(r->device, r->scene, &r->atlas, r->technique, threads, &error);
     if (!stage || !kiln_particles_run(stage, job, &error))
         fail_msg("%s", error.message);
-    kiln_particles_destroy(&stage);
+    if (r->device) /* keeps its programs */
+        r->stage = stage;
+    else
+        kiln_particles_destroy(&stage);
     kiln_threads_destroy(&threads);
 }
 
 void raster_close(struct raster *r)
 {
+    kiln_particles_destroy(&r->stage);
     kiln_moment_finish(&r->moment);
     kiln_buffer_finish(&r->entries);
     kiln_pool_finish(&r->pool);
+    kiln_framebuffer_finish(&r->framebuffer);
     struct kiln_image *images[] = {&r->depth, &r->color, &r->bloom, &r->added};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         kiln_image_finish(images[i]);

@@ -1,6 +1,7 @@
-/* Makes the input of the technique `raster=cpu`, which draws particles on the CPU: the scene's
- * atlas, target images of the scene's size, the light of a plain sky, and particle records and draw
- * entries, which the test fills in. Everything is in host memory, so that tests run without GL. */
+/* Makes the input of the stage `raster`, which draws particles: the scene's atlas, target images of
+ * the scene's size, the light of a plain sky, and particle records and draw entries, which the test
+ * fills in. Everything is in host memory, for the technique `cpu`, so that tests run without GL,
+ * unless the test gives a device. */
 #ifndef KILN_TESTS_RASTER_H
 #define KILN_TESTS_RASTER_H
 
@@ -8,6 +9,9 @@
 #include "shared/particle.h"
 
 struct raster {
+    struct kiln_device *device; /* NULL: the technique is `cpu` */
+    enum kiln_raster_technique technique;
+    struct kiln_particles_stage *stage; /* on a device: made by the first raster_draw */
     struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct kiln_atlas atlas;
@@ -35,6 +39,11 @@ struct kiln_particle raster_random_particle(float x, float y, float z, uint32_t 
 void raster_open(struct raster *r, struct kiln_scene *scene, uint32_t columns, uint32_t rows,
                  uint32_t step);
 
+/* Does what raster_open does, for a technique on a device. */
+void raster_open_on(struct raster *r, struct kiln_device *device,
+                    enum kiln_raster_technique technique, struct kiln_scene *scene,
+                    uint32_t columns, uint32_t rows, uint32_t step);
+
 /* Adds a sun and a row of `lamps` lamps, 1 m apart, to the light. */
 void raster_add_lamps(struct raster *r, uint32_t lamps);
 
@@ -51,7 +60,7 @@ void raster_add_particles(struct raster *r, uint32_t capacity, uint32_t count,
  * raster_add_lamps made, without shadows. */
 struct kiln_particles_draw raster_job(struct raster *r);
 
-/* Draws a job with `raster=cpu` on thread_count threads. An error fails the test. */
+/* Draws a job with the technique, `cpu` on thread_count threads. An error fails the test. */
 void raster_draw(struct raster *r, const struct kiln_particles_draw *job, uint32_t thread_count);
 
 void raster_close(struct raster *r);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "draw/sprites/gas_before.h"
 #include "shared/fragment_layout.h"
 
 enum { FRAGMENTS_AT_A_TIME = 1 << 21, KEY_BYTES = 16, FRAGMENT_BYTES = 32 };
@@ -54,15 +55,16 @@ struct kiln_fragments_gl {
 };
 
 static bool create_programs(struct kiln_fragments_gl *f,
-                            const struct kiln_program_params *particles, struct kiln_error *error)
+                            const struct kiln_program_params *particles,
+                            const struct kiln_scene *scene, struct kiln_error *error)
 {
     for (int i = 0; i < PROGRAM_COUNT; i++) {
         struct kiln_program_params params = *particles;
         params.fragment = "draw/sprites/particles_list.frag";
         if (i == RESOLVE)
-            params =
-                (struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert",
-                                             .fragment = "draw/sprites/fragments_resolve.frag"};
+            params = (struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert",
+                                                  .fragment = "draw/sprites/fragments_resolve.frag",
+                                                  .defines = kiln_gas_before_defines(scene)};
         if (i == MERGE)
             params = (struct kiln_program_params){.compute = "draw/sprites/fragments_merge.comp"};
         f->programs[i] = kiln_program_create(f->device, &params, error);
@@ -77,6 +79,7 @@ static bool create_programs(struct kiln_fragments_gl *f,
 
 struct kiln_fragments_gl *kiln_fragments_gl_create(struct kiln_device *device,
                                                    const struct kiln_program_params *particles,
+                                                   const struct kiln_scene *scene,
                                                    struct kiln_error *error)
 {
     struct kiln_fragments_gl *f = calloc(1, sizeof *f);
@@ -92,7 +95,7 @@ struct kiln_fragments_gl *kiln_fragments_gl_create(struct kiln_device *device,
     kiln_buffer_init(&f->merged, device, 0, "merged fragment keys");
     kiln_buffer_init(&f->blocks, device, 0, "fragment blocks");
     glGenVertexArrays(1, &f->vertex_array);
-    if (!create_programs(f, particles, error))
+    if (!create_programs(f, particles, scene, error))
         kiln_fragments_gl_destroy(&f);
     return f;
 }

@@ -10,9 +10,10 @@
 struct kiln_fragments_gl;
 
 /* Returns NULL with an error. particles: the vertex and geometry shader that place particles, and
- * their defines; a fragment shader that writes lists is added to them. */
+ * their defines, those of the scene; a fragment shader that writes lists is added to them. */
 struct kiln_fragments_gl *kiln_fragments_gl_create(struct kiln_device *device,
                                                    const struct kiln_program_params *particles,
+                                                   const struct kiln_scene *scene,
                                                    struct kiln_error *error);
 void kiln_fragments_gl_destroy(struct kiln_fragments_gl **fragments);
 

@@ -5,9 +5,11 @@
 
 #include "base/error.h"
 #include "draw/moment/draw_blocks.h"
+#include "draw/sprites/gas_before.h"
 #include "draw/sprites/particles_cpu.h"
 #include "draw/sprites/particles_geometry.h"
 #include "draw/sprites/particles_tiled.h"
+#include "draw/volume/volume.h"
 
 struct kiln_particles_stage {
     enum kiln_raster_technique technique;
@@ -16,6 +18,7 @@ struct kiln_particles_stage {
     const struct kiln_scene *scene;
     struct kiln_atlas *atlas;
     struct kiln_geometry *geometry; /* NULL for `cpu` */
+    struct kiln_gas_before *gas;    /* NULL for `cpu`, and without gas */
     struct kiln_tiled *tiled;       /* NULL unless `tiled` */
     struct kiln_raster_cpu *tiles;  /* NULL unless `cpu` */
 };
@@ -39,7 +42,11 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
         stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
     if (technique == KILN_RASTER_TILED && stage->geometry)
         stage->tiled = kiln_tiled_create(device, scene, stage->geometry, error);
-    if ((!stage->geometry && !stage->tiles) || (technique == KILN_RASTER_TILED && !stage->tiled))
+    const bool gas = stage->geometry && kiln_volume_exists(scene);
+    if (gas)
+        stage->gas = kiln_gas_before_create(device, error);
+    if ((!stage->geometry && !stage->tiles) || (technique == KILN_RASTER_TILED && !stage->tiled) ||
+        (gas && !stage->gas))
         kiln_particles_destroy(&stage);
     return stage;
 }
@@ -49,6 +56,7 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
     if (!*stage)
         return;
     kiln_tiled_destroy(&(*stage)->tiled);
+    kiln_gas_before_destroy(&(*stage)->gas);
     kiln_draw_blocks_finish(&(*stage)->blocks);
     kiln_geometry_destroy(&(*stage)->geometry);
     kiln_raster_cpu_destroy(&(*stage)->tiles);
@@ -76,9 +84,12 @@ bool kiln_particles_adds_apart(const struct kiln_particles_stage *stage,
            !draw->by_fragment;
 }
 
-bool kiln_particles_blends_with_gas(const struct kiln_particles_stage *stage)
+/* Binds the uniform blocks of a pass, and its gas. */
+static bool bind_blocks(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
+                        struct kiln_error *error)
 {
-    return stage->technique == KILN_RASTER_CPU;
+    return kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error) &&
+           (!stage->gas || kiln_gas_before_bind(stage->gas, draw->gas, error));
 }
 
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
@@ -87,10 +98,9 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
     switch (stage->technique) {
     case KILN_RASTER_GEOMETRY:
     case KILN_RASTER_INSTANCED:
-        return kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error) &&
-               kiln_geometry_run(stage->geometry, draw, error);
+        return bind_blocks(stage, draw, error) && kiln_geometry_run(stage->geometry, draw, error);
     case KILN_RASTER_TILED:
-        if (!kiln_draw_blocks_bind(&stage->blocks, draw->view, draw->backdrop, error))
+        if (!bind_blocks(stage, draw, error))
             return false;
         return draw->by_fragment ? kiln_geometry_run(stage->geometry, draw, error)
                                  : kiln_tiled_run(stage->tiled, draw, error);

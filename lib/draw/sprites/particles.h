@@ -48,8 +48,7 @@ struct kiln_particles_draw {
      * fire_covers must be false. */
     bool by_fragment;
     bool fire_covers; /* true: blends by premultiplied `over`; additive particles cover, too */
-    /* The gas that particles are blended with; NULL: there is none. Rasters in GL do not read it.
-     */
+    /* The gas that particles are blended with; NULL: there is none */
     const struct kiln_tile_gas *gas;
     /* NULL, or gets the colour and alpha of covering particles alone, if kiln_particles_splits */
     struct kiln_image *covering;
@@ -67,9 +66,6 @@ bool kiln_particles_splits(const struct kiln_particles_stage *stage,
  * draws a pass. */
 bool kiln_particles_adds_apart(const struct kiln_particles_stage *stage,
                                const struct kiln_particles_draw *draw);
-
-/* Returns whether the stage reads the gas of a pass. */
-bool kiln_particles_blends_with_gas(const struct kiln_particles_stage *stage);
 
 /* Draws the particles of a pass into draw->framebuffer. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

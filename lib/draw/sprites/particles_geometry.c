@@ -12,6 +12,7 @@
 #include "draw/light/sun_shade.h"
 #include "draw/moment/moment_gl.h"
 #include "draw/sprites/fragments_gl.h"
+#include "draw/sprites/gas_before.h"
 #include "draw/sprites/occlusion.h"
 #include "gpu/program.h"
 
@@ -44,12 +45,13 @@ static bool needs_shapes(const struct kiln_scene *scene)
 
 void kiln_geometry_defines(const struct kiln_scene *scene, struct kiln_text *defines)
 {
-    kiln_text_add(defines, "#define SHAPES %d\n%s%s%s%s%s", needs_shapes(scene) ? 1 : 0,
+    kiln_text_add(defines, "#define SHAPES %d\n%s%s%s%s%s%s", needs_shapes(scene) ? 1 : 0,
                   kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "",
                   kiln_lamp_shade_exists(scene) ? "#define LAMP_SHADE 1\n" : "",
                   kiln_scene_has_haze(scene) ? "#define HAZE 1\n" : "",
                   kiln_scene_has_smoke(scene) ? "" : "#define NO_SMOKE 1\n",
-                  kiln_scene_has_lamps(scene) ? "" : "#define NO_LAMPS 1\n");
+                  kiln_scene_has_lamps(scene) ? "" : "#define NO_LAMPS 1\n",
+                  kiln_gas_before_defines(scene));
     kiln_moment_gl_defines(scene, defines);
 }
 
@@ -72,7 +74,7 @@ static bool create_program(struct kiln_geometry *stage, const char *defines,
         return false;
     if (stage->scene->post.compose != KILN_COMPOSE_OIT)
         return true;
-    stage->fragments = kiln_fragments_gl_create(stage->device, &program, error);
+    stage->fragments = kiln_fragments_gl_create(stage->device, &program, stage->scene, error);
     return stage->fragments != NULL;
 }
 

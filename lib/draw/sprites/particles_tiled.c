@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "draw/sprites/gas_before.h"
 #include "gpu/program.h"
 #include "shared/tiled_layout.h"
 
@@ -47,6 +48,7 @@ struct kiln_tiled {
     struct tiling tiling;
     uint32_t group_size; /* invocations of a work group that makes, counts or lists sprites */
     uint32_t max_words;  /* mask words that one dispatch draws, a multiple of TILED_ROUND_WORDS */
+    uint32_t gas_steps;  /* loop iterations that find the gas before a pixel */
     GLuint make_program, count_program, list_program, mark_program, depth_program, draw_program;
     GLint additive_alpha; /* uniform of draw_program */
     GLuint sprite_texels; /* buffer texture of the sprites */
@@ -113,14 +115,14 @@ static uint32_t listing_iterations(uint32_t chunk, uint32_t group_size)
 
 /* Returns how many loop iterations an invocation runs that draws a round of a tile's mask: over its
  * pixels, to see if anything is left to draw; over its share of the words, and for each over the
- * words before and over its bits; over all sprites, and for each over its pixels. The loops over
- * pixels count even where the driver may unroll them. */
-static uint32_t round_iterations(const struct tiling *tiling)
+ * words before and over its bits; over all sprites, and for each over its pixels, and over the gas
+ * of each pixel. The loops over pixels count even where the driver may unroll them. */
+static uint32_t round_iterations(const struct tiling *tiling, uint32_t gas_steps)
 {
     uint32_t pixels = tiling->edge / tiling->rows, group_size = tiling->edge * tiling->rows;
     uint32_t shares = TILED_ROUND_WORDS / group_size + 1, bits = 33;
     return 1 + pixels + 1 + shares * (2 + TILED_ROUND_WORDS + bits) + 2 +
-           TILED_ROUND_WORDS * 32 * (1 + pixels + 1) + 1;
+           TILED_ROUND_WORDS * 32 * (1 + pixels * (1 + gas_steps) + 1) + 1;
 }
 
 /* On software GL, limits chunk and max_words so that no invocation runs too many iterations. */
@@ -132,8 +134,10 @@ static void limit_loops(struct kiln_tiled *tiled)
         return;
     while (listing_iterations(tiling->chunk, tiled->group_size) > KILN_SOFTWARE_ITERATIONS)
         tiling->chunk /= 2;
-    uint32_t ends = 2 * (tiling->edge / tiling->rows + 1) + 1; /* opening and closing pixels */
-    uint32_t rounds = (KILN_SOFTWARE_ITERATIONS - ends) / round_iterations(tiling);
+    uint32_t pixels = tiling->edge / tiling->rows;
+    uint32_t ends = 2 * (pixels + 1) + pixels * tiled->gas_steps + 1; /* opening, closing pixels */
+    uint32_t rounds =
+        (KILN_SOFTWARE_ITERATIONS - ends) / round_iterations(tiling, tiled->gas_steps);
     assert(rounds > 0 && tiling->chunk >= MIN_CHUNK);
     tiled->max_words = rounds * TILED_ROUND_WORDS;
 }
@@ -148,11 +152,13 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
         kiln_error_no_memory(error, "particles");
         return NULL;
     }
+    const uint32_t domains = kiln_gas_before_domains(scene);
     *tiled = (struct kiln_tiled){
         .device = device,
         .geometry = geometry,
         .tiling = choose_tiling(device),
         .group_size = kiln_device_group_size(device, TILED_GROUP_SIZE, MAX_GROUP_SIZE),
+        .gas_steps = domains > 0 ? domains + 1 : 0,
     };
     limit_loops(tiled);
     kiln_buffer_init(&tiled->boxes, device, 0, "boxes of sprites");

@@ -45,8 +45,7 @@ SIMD void add_profile(const struct kiln_volume_domain *domain, uint32_t number, 
     uint32_t low = 0;
     for (uint32_t jump = 16; jump > 0; jump /= 2) /* VOLUME_NODES <= 32 */
         low += low + jump < last && at[low + jump] <= place ? jump : 0;
-    const float way = (place - at[low]) / (at[low + 1] - at[low]);
-    const float part = way < 0.0f ? 0.0f : way < 1.0f ? way : 1.0f;
+    const float part = profile_part(place, at[low], at[low + 1]);
     node_numbers from, next;
     read_node(kiln_volume_node(p, low) + (size_t)pixel * VOLUME_NODE, &from);
     read_node(kiln_volume_node(p, low + 1) + (size_t)pixel * VOLUME_NODE, &next);
@@ -105,13 +104,6 @@ SIMD void add_gas(const struct kiln_tile_gas *gas, const struct kiln_volume_doma
     before->clear *= vf_where(clear >= VOLUME_OPAQUE_BELOW, clear);
 }
 
-/* Returns the number of a pixel of the gas's picture, of `count`, at a place. */
-SIMD uint32_t gas_pixel(float place, uint32_t count)
-{
-    const float last = (float)(count - 1);
-    return exact_uint(place < 0.0f ? 0.0f : place < last ? place : last);
-}
-
 /* Finds what gas before pixels of a tile does. at: offsets of their units in kiln_tile.pixels;
  * depth: of the pixels, m. */
 SIMD_ONCE void find_gas(const struct kiln_tile *tile, const int32_t *at, vf depth,
@@ -133,8 +125,8 @@ SIMD_ONCE void find_gas(const struct kiln_tile *tile, const int32_t *at, vf dept
                 continue;
             const float x = ((float)(tile->x + column) + 0.5f) * gas->scale - gas->margin_x;
             const float y = ((float)(tile->y + row) + 0.5f) * gas->scale - gas->margin_y;
-            put_gas(profiles, &profiles->domains[i], gas_pixel(x, gas->width),
-                    gas_pixel(y, gas->height), depths[lane], lane, &lanes);
+            put_gas(profiles, &profiles->domains[i], profile_pixel(x, gas->width),
+                    profile_pixel(y, gas->height), depths[lane], lane, &lanes);
         }
         add_gas(gas, &profiles->domains[i], &lanes, before);
     }

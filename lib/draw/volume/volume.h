@@ -3,8 +3,7 @@
  * the same bytes on every machine.
  *
  * Gas hides the backdrop, objects and solid particles behind it. Other particles are blended with
- * it by the profiles of its rays (volume_profile.h); rasters that do not read profiles draw it
- * behind them. */
+ * it by the profiles of its rays (volume_profile.h), which all rasters read. */
 #ifndef KILN_DRAW_VOLUME_VOLUME_H
 #define KILN_DRAW_VOLUME_VOLUME_H
 

@@ -49,6 +49,7 @@ bool kiln_volume_profiles_begin(struct kiln_volume_profiles *profiles, uint32_t 
     profiles->across = kiln_tiles_along(width);
     profiles->tiles = profiles->across * kiln_tiles_along(height);
     profiles->count = count;
+    profiles->drawn++;
     for (uint32_t i = 0; i < count; i++) {
         struct kiln_volume_domain *d = &profiles->domains[i];
         if (!make_room(d, pixels, profiles->tiles)) {

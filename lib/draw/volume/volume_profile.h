@@ -13,12 +13,7 @@
 
 #include "base/footprint.h"
 #include "particles/gas.h"
-
-enum {
-    VOLUME_PACKET = 8, /* pixels whose rays march together */
-    VOLUME_TILE = 8,   /* pixels along an edge of a tile */
-    VOLUME_NODES = 32, /* most places of a ray */
-};
+#include "shared/gas_profile.h"
 
 /* The numbers at a place. Light is the upper half of a float, which is exact to 1/512 of it. */
 enum {
@@ -27,13 +22,9 @@ enum {
     VOLUME_NODE_FLAME = VOLUME_NODE_SMOKE + 3, /* light of flames: rgb */
     VOLUME_NODE = VOLUME_NODE_FLAME + 3 + 1    /* the last one is not used */
 };
-#define VOLUME_DEPTH_UNIT (1.0f / 8192.0f)
 
 /* The unit of places in the memory of profiles, bytes. */
 #define VOLUME_PROFILE_UNIT 64
-
-/* Gas that lets less than this part of the light through hides all that is behind it. */
-#define VOLUME_OPAQUE_BELOW 0.002f
 
 /* Holds the profiles of a packet of pixels in a domain, whose places have the same distances from
  * the eye in all pixels. The numbers before the first place are those of the first one, and so
@@ -63,17 +54,11 @@ static inline uint32_t kiln_tiles_along(uint32_t pixels)
     return (pixels + VOLUME_TILE - 1) / VOLUME_TILE;
 }
 
-/* Lists the numbers that pixels without a profile of their own have in its place. */
-enum {
-    VOLUME_NO_PROFILE, /* no gas is seen there */
-    VOLUME_BETWEEN /* its gas is the mean of that of its neighbours with a ray: the pixels of the
-                      2, or 4, nearest even columns and rows */
-};
-
 /* Holds the profiles of a domain. */
 struct kiln_volume_domain {
     uint32_t *profile_of; /* of each pixel: 8 times the place of its profile in `memory`, in units
-                             of VOLUME_PROFILE_UNIT, and its number in the profile's packet */
+                             of VOLUME_PROFILE_UNIT, and its number in the profile's packet; or
+                             VOLUME_NO_PROFILE, VOLUME_BETWEEN */
     float *near_m;        /* of each tile: no gas is nearer, m; 1e9: there is none */
     float bloom;          /* the part of the flames' light that glows */
     char *memory;         /* of the profiles */
@@ -101,6 +86,7 @@ struct kiln_volume_profiles {
     uint32_t count;                                  /* domains; 0: no gas is seen */
     uint32_t width, height;                          /* of the picture, px */
     uint32_t across, tiles;                          /* tiles of a row, and in all */
+    uint64_t drawn; /* pictures so far: says whether a copy of these profiles is up to date */
 };
 
 /* Takes memory for the profiles of a packet with so many places, at most VOLUME_NODES, and sets

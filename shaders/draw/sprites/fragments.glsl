@@ -9,7 +9,7 @@
 
 struct fragment {
     vec4 color; /* premultiplied */
-    vec4 bloom; /* rgb: weights of the bloom; a: unused */
+    vec4 bloom; /* rgb: weights of the bloom, or with GAS the glow itself; a: unused */
 };
 
 struct list_range {

@@ -8,6 +8,8 @@
  * list. A static assertion in fragments_gl.c bounds the iterations of the loops in this file; who
  * changes a loop must change that bound. is_behind must tell any two fragments of a list apart, so
  * that the picture does not depend on the order in which fragments arrived. */
+// variant:
+// variant: GAS=1
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
 
@@ -47,7 +49,11 @@ void main()
     for (uint i = span.x, end = min(count, span.y); i < end; i++) {
         fragment f = fragments[list_keys[first + i].z]; /* z: index of the fragment */
         color = f.color + color * (1.0 - f.color.a);
+#ifdef GAS
+        glow = f.bloom.rgb + glow * (1.0 - f.color.a);
+#else
         glow = f.color.rgb * f.bloom.rgb + glow * (1.0 - f.color.a);
+#endif
     }
     out_color = color;
     out_bloom = vec4(glow, color.a);

@@ -12,12 +12,15 @@
 // variant: SHAPES=0
 // variant: SHAPES=1
 // variant: SHAPES=0 HAZE=1
+// variant: SHAPES=0 GAS=1
+// variant: SHAPES=0 GAS=1 GAS_BETWEEN=1
 #include "shared/draw_layout.h"
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
 #include "draw/sprites/fragment.glsl"
+#include "draw/sprites/gas_before.glsl"
 
 void main()
 {
@@ -27,4 +30,7 @@ void main()
         discard;
     float depth_of_scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
     shade(quad, at, depth, depth_of_scene, out_color, out_bloom);
+#ifdef GAS
+    blend_with_gas(gl_FragCoord.xy, depth, out_color, out_bloom);
+#endif
 }

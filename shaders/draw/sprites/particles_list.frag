@@ -8,6 +8,7 @@
 // variant: SHAPES=0
 // variant: SHAPES=1
 // variant: SHAPES=0 HAZE=1
+// variant: SHAPES=0 GAS=1 GAS_BETWEEN=1
 #include "shared/draw_layout.h"
 
 layout(early_fragment_tests) in;
@@ -15,20 +16,21 @@ layout(early_fragment_tests) in;
 #include "draw/sprites/fragment.glsl"
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
+#include "draw/sprites/gas_before.glsl"
 
 uniform bool writes; /* false: count fragments; true: put them on lists */
 
 /* Puts a fragment on its pixel's list, at the place `number`. front is 1 for the front sheet of
- * two, or 0. A fragment beyond the count is dropped, since it would overwrite the list of the next
- * pixel. */
-void put(uint number, float depth, uint front, vec4 color)
+ * two, or 0. bloom: as of struct fragment. A fragment beyond the count is dropped, since it would
+ * overwrite the list of the next pixel. */
+void put(uint number, float depth, uint front, vec4 color, vec3 bloom)
 {
     uint pixel = pixel_number(), next = ranges[pixel].first + number;
     if (number >= counts[pixel])
         return;
     list_keys[next] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + front, next, 0u);
     fragments[next].color = color;
-    fragments[next].bloom = vec4(quad.bloom.rgb, 0.0);
+    fragments[next].bloom = vec4(bloom, 0.0);
 }
 
 void main()
@@ -56,12 +58,21 @@ void main()
         return;
     }
     uint number = atomicAdd(ranges[pixel_number()].written, pieces);
+#ifdef GAS
+    blend_with_gas(gl_FragCoord.xy, depth, color, bloom);
+    vec3 glow = bloom.rgb;
+#else
+    vec3 glow = quad.bloom.rgb;
+#endif
     if (pieces == 1u) {
-        put(number, depth, 0u, color);
+        put(number, depth, 0u, color, glow);
         return;
     }
     float alpha = half_alpha(color.a);
     color = vec4(color.rgb * half_color(alpha), alpha);
-    put(number, depth + half_depth, 0u, color);
-    put(number + 1u, max(depth - half_depth, 0.0), 1u, color);
+#ifdef GAS
+    glow *= half_color(alpha);
+#endif
+    put(number, depth + half_depth, 0u, color, glow);
+    put(number + 1u, max(depth - half_depth, 0.0), 1u, color, glow);
 }

@@ -14,6 +14,7 @@
 // variant: SHAPES=0 TILED_EDGE=16 TILED_ROWS=16
 // variant: SHAPES=1 TILED_EDGE=8 TILED_ROWS=2
 // variant: SHAPES=0 HAZE=1 TILED_EDGE=16 TILED_ROWS=16
+// variant: SHAPES=0 GAS=1 GAS_BETWEEN=1 TILED_EDGE=8 TILED_ROWS=2
 #include "shared/draw_layout.h"
 
 #include "draw/sprites/tiled.glsl"
@@ -64,6 +65,7 @@ layout(location = TILED_AT_SPAN) uniform uvec2 span;
 
 #include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"
+#include "draw/sprites/gas_before.glsl"
 
 const uint WORDS = uint(TILED_ROUND_WORDS);
 shared uint touching[WORDS]; /* the words of the tile's mask in this round */
@@ -102,6 +104,18 @@ struct pixel {
 
 pixel pixels[PIXELS];
 
+#ifdef GAS
+/* The most light that the gas of the invocation's pixels adds to a channel. */
+float light_of_gas = 0.0;
+
+void measure_gas(vec2 place)
+{
+    gas_before all = find_gas(place, 1e9);
+    vec3 light = max(all.light, gas.covered.z * all.glow);
+    light_of_gas = max(light_of_gas, max(max(light.r, light.g), light.b));
+}
+#endif
+
 /* Starts the invocation's pixels, empty or from `carry`. A pixel outside the picture gets
  * transmittance 0, so that nothing is drawn for it. Returns the largest channel of the glow of an
  * earlier pass. */
@@ -115,6 +129,9 @@ float open_pixels(uvec2 first, uvec2 size)
         if (!inside)
             continue;
         pixels[k].scene = texelFetch(scene_depth, ivec2(at), 0).r;
+#ifdef GAS
+        measure_gas(vec2(at) + 0.5);
+#endif
         if (keep_glow)
             before = max(before, texelFetch(bloom_before, ivec2(at), 0));
         if (!first_last_run.x) {
@@ -154,6 +171,9 @@ void draw(uint i, vec2 first)
         if (place_covers(rows, first + vec2(0.0, float(k * ROWS)), depth, at)) {
             vec4 color, glow;
             shade(quad, at, depth, pixels[k].scene, color, glow);
+#ifdef GAS
+            blend_with_gas(first + vec2(0.0, float(k * ROWS)), depth, color, glow);
+#endif
             float passed = pixels[k].glow.a;
             pixels[k].color += color * passed;
             pixels[k].glow += vec4(glow.rgb, -occludes * color.a) * passed;
@@ -172,7 +192,12 @@ float most_left(tiled_bin bin, float before, uint sprites_left)
     float transmittance = 0.0;
     for (uint k = 0u; k < PIXELS; k++)
         transmittance = max(transmittance, pixels[k].glow.a);
-    float left = transmittance * (max(uintBitsToFloat(bin.covering_max), before) + adding);
+    float covering = uintBitsToFloat(bin.covering_max);
+#ifdef GAS
+    covering += light_of_gas;
+    before += light_of_gas;
+#endif
+    float left = transmittance * (max(covering, before) + adding);
     atomicMax(left_bits, floatBitsToUint(left));
     barrier();
     return uintBitsToFloat(left_bits);
