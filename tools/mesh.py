@@ -1,4 +1,5 @@
-"""Helps tools/props and tools/mill to write meshes of scenes: OBJ files in scenes/meshes, noise, and shapes."""
+"""Helps tools/props, tools/graves and tools/mill to write meshes of scenes: OBJ files in scenes/meshes, noise, and
+shapes."""
 import os
 import sys
 from math import cos, floor, hypot, pi, sin
