@@ -301,6 +301,7 @@ static bool measure_fires(const struct kiln_gas_sizes *sizes, const char *state,
         fires[i] = (struct fire){.sizes = sizes, .size = i};
         kiln_bench_say(sizes->run, "a fire of %d cells: steps and files", sizes->edges[i]);
         struct fire *f = &fires[i];
+        drawings[i].march = sizes->march;
         const bool ok = make_fire(f, error) && take_turns(f, state, vdb, error) &&
                         kiln_bench_draw_gas(sizes->run, f->scene, &f->pool, f->state.info.step,
                                             f->threads, &drawings[i], error);
@@ -341,6 +342,7 @@ bool kiln_suite_gas(const struct kiln_bench_run *run, struct kiln_error *error)
     if (!kiln_techniques_choose(kiln_device_get_info(run->device), run->params->techniques,
                                 run->params->technique_count, &techniques, error))
         return false;
+    sizes.march = techniques.march;
     if (techniques.gas == KILN_GAS_CPU)
         return measure(&sizes, error);
     sizes.kernels = gas_kernels_create(run->device, error);

@@ -15,6 +15,7 @@ struct kiln_gas_sizes {
     int32_t edges[KILN_GAS_SIZES];
     uint32_t count;
     struct gas_kernels *kernels; /* NULL: technique `cpu` steps the gas */
+    enum kiln_march_technique march;
 };
 
 /* Adds a row to the last part, whose x is the edge of a size. */
@@ -28,13 +29,16 @@ extern const char *const kiln_gas_pass_names[GAS_TIMERS];
 /* Add the parts about steps of boxes and their memory (gas_box.c). */
 bool kiln_bench_gas_boxes(const struct kiln_gas_sizes *sizes, struct kiln_error *error);
 
-/* Holds what drawing a fire has taken, in turns: with each kiln_gas_resolution. */
+/* Holds what drawing a fire has taken, in turns: with each kiln_gas_resolution, or for march=gl
+ * with the first one, as it has a ray for each pixel. */
 struct kiln_gas_drawing {
+    enum kiln_march_technique march;
     struct kiln_volume_costs costs[2][KILN_GAS_TURNS];
     uint32_t turns;
 };
 
-/* Draws the gas of a fire at a step, on the host. The scene's resolution of gas changes. */
+/* Draws the gas of a fire at a step, on the host but for the march. The scene's resolution of gas
+ * changes. */
 bool kiln_bench_draw_gas(const struct kiln_bench_run *run, struct kiln_scene *scene,
                          struct kiln_pool *pool, uint32_t step, struct kiln_threads *threads,
                          struct kiln_gas_drawing *to, struct kiln_error *error);

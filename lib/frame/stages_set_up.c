@@ -167,7 +167,8 @@ static bool init_drawing(struct kiln_stages *s, const struct kiln_techniques *te
 }
 
 /* Creates the stage of gas, if there is gas. */
-static bool init_volume(struct kiln_stages *s, struct kiln_error *error)
+static bool init_volume(struct kiln_stages *s, enum kiln_march_technique technique,
+                        struct kiln_error *error)
 {
     if (!kiln_volume_exists(s->scene))
         return true;
@@ -175,7 +176,8 @@ static bool init_volume(struct kiln_stages *s, struct kiln_error *error)
     kiln_image_init(&s->gas_color, s->device, w, h, GL_RGBA32F, "gas");
     kiln_image_init(&s->gas_depth, s->device, w, h, GL_R32F, "depth of gas");
     s->volume = kiln_volume_create(&s->moment, s->glow, s->threads, error);
-    return s->volume != NULL;
+    return s->volume &&
+           (technique == KILN_MARCH_CPU || kiln_volume_use_gl(s->volume, s->device, error));
 }
 
 /* Creates what moments within a step, and frames of several moments, need. */
@@ -227,7 +229,7 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
                         struct kiln_output_needs needs, struct kiln_error *error)
 {
     return init_sort(s, techniques, error) && init_drawing(s, techniques, error) &&
-           init_volume(s, error) && init_moments(s, techniques, error) &&
+           init_volume(s, techniques->march, error) && init_moments(s, techniques, error) &&
            init_post(s, techniques, needs, error);
 }
 

@@ -9,17 +9,18 @@
 #include "base/error.h"
 #include "base/text.h"
 
-enum stage { SIMULATE, GAS, SORT, BACKDROP, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
+enum stage { SIMULATE, GAS, SORT, BACKDROP, MARCH, RASTER, BLOOM, COMPOSITE, STAGE_COUNT };
 _Static_assert((int)STAGE_COUNT == (int)KILN_STAGE_COUNT, "the header says how many");
 
 static const char *const STAGE_NAMES[STAGE_COUNT] = {
-    [SIMULATE] = "simulate", [GAS] = "gas",     [SORT] = "sort",          [BACKDROP] = "backdrop",
-    [RASTER] = "raster",     [BLOOM] = "bloom", [COMPOSITE] = "composite"};
+    [SIMULATE] = "simulate", [GAS] = "gas",       [SORT] = "sort",   [BACKDROP] = "backdrop",
+    [MARCH] = "march",       [RASTER] = "raster", [BLOOM] = "bloom", [COMPOSITE] = "composite"};
 
 static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
-    [SIMULATE] = KILN_PASS_simulate,  [GAS] = KILN_PASS_simulate,     [SORT] = KILN_PASS_sort,
-    [BACKDROP] = KILN_PASS_backdrop,  [RASTER] = KILN_PASS_particles, [BLOOM] = KILN_PASS_bloom,
-    [COMPOSITE] = KILN_PASS_composite};
+    [SIMULATE] = KILN_PASS_simulate, [GAS] = KILN_PASS_simulate,
+    [SORT] = KILN_PASS_sort,         [BACKDROP] = KILN_PASS_backdrop,
+    [MARCH] = KILN_PASS_gas,         [RASTER] = KILN_PASS_particles,
+    [BLOOM] = KILN_PASS_bloom,       [COMPOSITE] = KILN_PASS_composite};
 
 #define AUTO "auto"
 
@@ -68,6 +69,8 @@ static const struct row ROWS[] = {
      .instead = "sort=radix", .numbered = &SPREAD},
     {BACKDROP, "cpu", KILN_BACKDROP_CPU, .help = "host threads, rays in vectors"},
     {BACKDROP, "gl", KILN_BACKDROP_GL, .help = "fragment shaders"},
+    {MARCH, "cpu", KILN_MARCH_CPU, .help = "host threads, rays through gas in vectors"},
+    {MARCH, "gl", KILN_MARCH_GL, .help = "compute, a ray through gas for each pixel"},
     {RASTER, "cpu", KILN_RASTER_CPU, .help = "host threads, tiles and vectors"},
     {RASTER, "geometry", KILN_RASTER_GEOMETRY,
      .help = "points turned into billboards by a geometry shader"},
@@ -117,6 +120,10 @@ static const struct choice {
                        "vectors on the host are several times as fast as GL on the same cores"},
          [GPU] = {"gl", "the hardware casts the rays"},
          [INEXACT_GPU] = {"gl", "the hardware casts the rays"}},
+    [MARCH] = {[SOFTWARE] =
+                   {"cpu", "vectors on the host are several times as fast as GL on the same cores"},
+               [GPU] = {"gl", "the rays of all pixels march at once"},
+               [INEXACT_GPU] = {"gl", "the rays of all pixels march at once"}},
     [RASTER] =
         {[SOFTWARE] = {"cpu",
                        "vectors on the host draw several times as fast as GL on the same cores"},
@@ -305,6 +312,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         .sort = (enum kiln_sort_technique)value_of(&choices, SORT),
         .sort_number = choices.numbers[SORT],
         .backdrop = (enum kiln_backdrop_technique)value_of(&choices, BACKDROP),
+        .march = (enum kiln_march_technique)value_of(&choices, MARCH),
         .raster = (enum kiln_raster_technique)value_of(&choices, RASTER),
         .bloom = (enum kiln_bloom_technique)value_of(&choices, BLOOM),
         .composite = (enum kiln_composite_technique)value_of(&choices, COMPOSITE),

@@ -5,13 +5,14 @@
 
 #include "draw/backdrop/backdrop.h"
 #include "draw/sprites/particles.h"
+#include "draw/volume/volume.h"
 #include "kiln.h"
 #include "post/bloom.h"
 #include "post/composite.h"
 #include "sim/step/simulate.h"
 #include "sort/sort.h"
 
-enum { KILN_STAGE_COUNT = 7, KILN_TECHNIQUE_SIZE = 32 };
+enum { KILN_STAGE_COUNT = 8, KILN_TECHNIQUE_SIZE = 32 };
 _Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold all choices");
 
 struct kiln_techniques {
@@ -20,6 +21,7 @@ struct kiln_techniques {
     enum kiln_sort_technique sort;
     uint32_t sort_number; /* N of "sort=NAME:N"; 0: the technique takes no number */
     enum kiln_backdrop_technique backdrop;
+    enum kiln_march_technique march;
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
     enum kiln_composite_technique composite;

@@ -9,6 +9,9 @@
 #define VOLUME_TILE   8  /* pixels along an edge of a tile */
 #define VOLUME_NODES  32 /* most places of a ray */
 
+/* Words of the head of a profile, and the unit of places in the memory of profiles. */
+#define VOLUME_PROFILE_WORDS 16
+
 #define VOLUME_DEPTH_UNIT (1.0f / 8192.0f)
 
 /* Gas that lets less than this part of the light through hides all that is behind it. */
@@ -28,7 +31,7 @@
 #define KILN_UNIT_PROFILES 21
 
 /* The gas that particles of a pass are blended with (struct kiln_tile_gas). */
-struct kiln_gas_block {
+struct kiln_gas_before_block {
     uint4 picture;  /* width and height of the gas's picture, px; tiles of a row; domains */
     float4 place;   /* pixels of that picture along an edge of a pixel; margins, px of it; unused */
     float4 covered; /* the light of smoke, of flames, and their glow that particles cover: 0, 1 */

@@ -44,6 +44,22 @@ static void pixels_without_a_ray_are_means(void **state)
     check(*state, false, true, 8.0f);
 }
 
+/* Profiles of march=gl, read by the host and by GL. */
+static void the_march_in_gl_writes_profiles(void **state)
+{
+    static const float extinctions[] = {1.0f, 8.0f};
+    for (size_t i = 0; i < 4; i++) {
+        struct gas_depth f;
+        gas_depth_open(&f, &(struct gas_depth_setting){.device = *state,
+                                                       .technique = i % 2 ? KILN_RASTER_TILED
+                                                                          : KILN_RASTER_CPU,
+                                                       .march_in_gl = true,
+                                                       .extinction = extinctions[i / 2]});
+        gas_depth_check(&f);
+        gas_depth_close(&f);
+    }
+}
+
 /* A picture of 2^32 pixels has a profile for each of them, of which a texel has four. */
 static void profiles_that_are_too_large_are_an_error(void **state)
 {
@@ -72,6 +88,7 @@ int main(void)
                                        test_on_device(sprites_are_blended_with_thick_gas),
                                        test_on_device(lists_of_fragments_are_blended_with_gas),
                                        test_on_device(pixels_without_a_ray_are_means),
+                                       test_on_device(the_march_in_gl_writes_profiles),
                                        test_on_device(profiles_that_are_too_large_are_an_error)};
     return cmocka_run_group_tests(tests, test_device_open, test_device_close);
 }

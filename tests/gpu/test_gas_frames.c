@@ -1,5 +1,6 @@
-/* Frames with gas on a device: the gas, which is marched on the host, would be missing in pictures
- * and layers of techniques of GL, or lie elsewhere, or before particles that it is behind. */
+/* Frames with gas on a device: the gas, which is marched on the host or in GL, would be missing in
+ * pictures and layers of techniques of GL, or lie elsewhere, or before particles that it is behind.
+ */
 #include <math.h>
 
 #include "support/device.h"
@@ -32,6 +33,7 @@ static void gas_is_as_on_the_host(void **state)
                  {"post.compose=alpha", KILN_RASTER_INSTANCED},
                  {"post.compose=oit", KILN_RASTER_TILED},
                  {"camera.shutter.samples=2", KILN_RASTER_TILED},
+                 {"camera.aperture=10 cm", KILN_RASTER_TILED},
                  {"post.particles.resolution=half", KILN_RASTER_GEOMETRY},
                  {"post.particles={resolution: half, mixed: true}", KILN_RASTER_TILED}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -46,6 +48,7 @@ static void gas_is_as_on_the_host(void **state)
         struct kiln_picture *host = gas_frame_draw(NULL, &frame);
         frame.techniques = FRAME_GL;
         frame.techniques.raster = cases[i].raster;
+        frame.techniques.march = i % 2 ? KILN_MARCH_GL : KILN_MARCH_CPU;
         struct kiln_picture *gl = gas_frame_draw(device, &frame);
         for (int layer = 0; layer < FRAME_LAYERS; layer++) {
             const double off = frame_difference(host, gl, layer);

@@ -62,7 +62,7 @@ static void a_missing_golden_is_new_and_nothing_is_written(void **state)
     assert_string_equal(run.result->approve, "kiln test approve spark.test.yaml");
     assert_string_equal(
         run.result->techniques,
-        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=cpu");
     assert_int_equal(run.result->seed, 7);
     spark_end(&run);
 }

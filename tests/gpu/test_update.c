@@ -387,7 +387,7 @@ static void stale_limits_are_noted(void **state)
 
 static void other_techniques_and_missing_states_are_noted(void **state)
 {
-#define OTHERS "gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu"
+#define OTHERS "gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=cpu"
     (void)state;
     spark_write("");
     spark_update(KILN_UPDATE_MISSING);

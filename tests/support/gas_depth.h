@@ -16,7 +16,7 @@ struct gas_depth_drawn {
 struct gas_depth {
     struct gas_view gas;
     struct raster raster;
-    struct kiln_volume_stage *stage;
+    struct kiln_volume_stage *stage, *in_gl; /* in_gl: NULL unless march_in_gl */
     struct kiln_threads *threads;
     float depths[GAS_DEPTH_SPRITES]; /* of the sprites, m */
     bool by_fragment;
@@ -26,6 +26,7 @@ struct gas_depth {
 struct gas_depth_setting {
     struct kiln_device *device; /* NULL for `cpu` */
     enum kiln_raster_technique technique;
+    bool march_in_gl; /* not for the reference */
     float extinction; /* 1/m */
     bool by_fragment; /* post.compose: oit */
     bool half;        /* not all pixels of the gas have a ray */
@@ -37,7 +38,7 @@ void gas_depth_close(struct gas_depth *f);
 /* Draws gas and sprites as the stages do. behind: true: all gas lies behind all sprites. */
 void gas_depth_draw(struct gas_depth *f, bool behind, struct gas_depth_drawn *to);
 
-void gas_depth_draw_reference(struct gas_depth *f, struct gas_depth_drawn *to);
+void gas_depth_draw_reference(struct gas_depth *f, struct gas_depth_drawn *sum);
 
 /* Returns the greatest part of a pixel's light, or with alpha of the light from behind, by which a
  * picture is off. Light of less than a part `least` of the picture's brightest counts as that. */

@@ -26,11 +26,16 @@ struct kiln_value3 gas_view_value3(float x, float y, float z)
 
 void gas_view_open(struct gas_view *f)
 {
+    gas_view_open_on(f, NULL);
+}
+
+void gas_view_open_on(struct gas_view *f, struct kiln_device *device)
+{
     struct kiln_error error = {0};
-    *f = (struct gas_view){.scene = load_scene(SCENE, NULL), .threads = 1};
+    *f = (struct gas_view){.device = device, .scene = load_scene(SCENE, NULL), .threads = 1};
     assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));
     assert_true(kiln_moment_fill(&f->moment, NULL, kiln_instant_at_step(0), false, &error));
-    kiln_image_init(&f->depth, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_R32F, "depth");
+    kiln_image_init(&f->depth, device, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_R32F, "depth");
     kiln_image_init(&f->picture, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_RGBA32F, "picture");
     kiln_image_init(&f->halfway, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_R32F, "halfway");
     kiln_image_init(&f->layer, NULL, GAS_VIEW_SIZE, GAS_VIEW_SIZE, GL_RGBA32F, "layer");
@@ -68,6 +73,7 @@ const float *gas_view_draw(struct gas_view *f)
         f->scene->gas[i].shape = f->pool.gas[i].shape;
     struct kiln_volume_stage *stage = kiln_volume_create(&f->moment, true, threads, &error);
     assert_non_null(stage);
+    assert_true(!f->device || kiln_volume_use_gl(stage, f->device, &error));
     float *picture = kiln_image_host(&f->picture, KILN_OVERWRITE, &error);
     memset(picture, 0, GAS_VIEW_FLOATS * sizeof *picture);
     const struct kiln_volume_draw gas = {.moment = &f->moment,

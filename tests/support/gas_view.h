@@ -13,6 +13,7 @@ enum {
 };
 
 struct gas_view {
+    struct kiln_device *device; /* marches through the gas; NULL: the host does */
     struct kiln_scene *scene;
     struct kiln_moment moment;
     struct kiln_pool pool;
@@ -27,6 +28,9 @@ struct gas_view {
 /* Opens a scene without domains, in darkness, with nothing behind it. Its node `cart` is at (3, -2,
  * 1), turned by 90 degrees about y, and scales by 2. */
 void gas_view_open(struct gas_view *f);
+
+/* Does what gas_view_open does, for the technique march=gl of a device. */
+void gas_view_open_on(struct gas_view *f, struct kiln_device *device);
 
 /* Closes the scene, and frees the gas of its domains. */
 void gas_view_close(struct gas_view *f);

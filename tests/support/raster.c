@@ -125,7 +125,7 @@ void raster_draw(struct raster *r, const struct kiln_particles_draw *job, uint32
             kiln_particles_create(r->device, r->scene, &r->atlas, r->technique, threads, &error);
     if (!stage || !kiln_particles_run(stage, job, &error))
         fail_msg("%s", error.message);
-    if (r->device) /* keeps its programs */
+    if (r->technique != KILN_RASTER_CPU) /* keeps its programs */
         r->stage = stage;
     else
         kiln_particles_destroy(&stage);

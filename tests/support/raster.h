@@ -11,7 +11,7 @@
 struct raster {
     struct kiln_device *device; /* NULL: the technique is `cpu` */
     enum kiln_raster_technique technique;
-    struct kiln_particles_stage *stage; /* on a device: made by the first raster_draw */
+    struct kiln_particles_stage *stage; /* of GL: made by the first raster_draw */
     struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct kiln_atlas atlas;

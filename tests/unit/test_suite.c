@@ -496,7 +496,7 @@ static const struct {
     {START "devices: [H 200, h-200]\n", ":3:10: devices: 'h-200' is given twice"},
     {START "techniques: [simulat=cpu]\n",
      ":3:14: techniques.0: stage 'simulat' is not known (did you mean 'simulate'?); allowed are "
-     "simulate, gas, sort, backdrop, raster, bloom, composite"},
+     "simulate, gas, sort, backdrop, march, raster, bloom, composite"},
     {START "techniques: [cpu]\n", ":3:14: techniques.0: technique 'cpu': expected stage=name"},
     {START "limits: {flip.mena: 0.1}\n",
      ":3:10: limits.flip.mena: unknown metric 'flip.mena' (did you mean 'flip.mean'?)"},

@@ -25,14 +25,15 @@ static void defaults_follow_the_device(void **state)
     struct kiln_error error = {0};
     assert_true(choose(true, true, NULL, text, &error));
     assert_string_equal(
-        text, "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_true(choose(false, true, NULL, text, &error));
-    assert_string_equal(
         text,
-        "simulate=inplace gas=gl sort=bitonic backdrop=gl raster=tiled bloom=gl composite=gl");
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_true(choose(false, true, NULL, text, &error));
+    assert_string_equal(text, "simulate=inplace gas=gl sort=bitonic backdrop=gl march=gl "
+                              "raster=tiled bloom=gl composite=gl");
     assert_true(choose(false, false, NULL, text, &error));
     assert_string_equal(
-        text, "simulate=cpu gas=cpu sort=cpu backdrop=gl raster=tiled bloom=gl composite=gl");
+        text,
+        "simulate=cpu gas=cpu sort=cpu backdrop=gl march=gl raster=tiled bloom=gl composite=gl");
 }
 
 static void auto_is_the_default(void **state)
@@ -95,7 +96,7 @@ static void a_device_without_gl_takes_cpu_alone(void **state)
 {
     (void)state;
     const struct kiln_device_info host = {.software = true, .exact = true, .name = "cpu"};
-    static const char *const flags[] = {"simulate=inplace", "gas=gl",   "sort=radix",
+    static const char *const flags[] = {"simulate=inplace", "gas=gl",   "sort=radix",  "march=gl",
                                         "raster=geometry",  "bloom=gl", "composite=gl"};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         struct kiln_techniques techniques;
@@ -115,26 +116,25 @@ static void flags_force_a_technique(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, "simulate=inplace", text, &error));
-    assert_string_equal(
-        text, "simulate=inplace gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(text, "simulate=inplace gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu "
+                              "bloom=cpu composite=cpu");
     assert_true(choose(true, true, "raster=geometry", text, &error));
-    assert_string_equal(
-        text, "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(text, "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu "
+                              "raster=geometry bloom=cpu composite=cpu");
 
     assert_true(choose(true, true, "sort=radix", text, &error));
-    assert_string_equal(
-        text, "simulate=cpu gas=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(text, "simulate=cpu gas=cpu sort=radix backdrop=cpu march=cpu raster=cpu "
+                              "bloom=cpu composite=cpu");
     assert_true(choose(false, true, "raster=geometry", text, &error));
-    assert_string_equal(
-        text,
-        "simulate=inplace gas=gl sort=bitonic backdrop=gl raster=geometry bloom=gl composite=gl");
+    assert_string_equal(text, "simulate=inplace gas=gl sort=bitonic backdrop=gl march=gl "
+                              "raster=geometry bloom=gl composite=gl");
 
     assert_false(choose(true, true, "simulate", text, &error));
     expect_error(&error, KILN_USAGE, "technique 'simulate': expected stage=name");
     assert_false(choose(true, true, "simulat=cpu", text, &error));
     expect_error(&error, KILN_USAGE,
                  "technique: stage 'simulat' is not known (did you mean 'simulate'?); "
-                 "allowed are simulate, gas, sort, backdrop, raster, bloom, composite");
+                 "allowed are simulate, gas, sort, backdrop, march, raster, bloom, composite");
     assert_false(choose(true, true, "sort=gpu", text, &error));
     expect_error(&error, KILN_USAGE,
                  "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
@@ -147,12 +147,11 @@ static void a_sort_can_be_spread_over_frames(void **state)
     char text[256];
     struct kiln_error error = {0};
     assert_true(choose(true, true, "sort=oddeven:8", text, &error));
-    assert_string_equal(
-        text,
-        "simulate=cpu gas=cpu sort=oddeven:8 backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(text, "simulate=cpu gas=cpu sort=oddeven:8 backdrop=cpu march=cpu "
+                              "raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(true, true, "sort=oddeven", text, &error));
-    assert_string_equal(
-        text, "simulate=cpu gas=cpu sort=oddeven backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(text, "simulate=cpu gas=cpu sort=oddeven backdrop=cpu march=cpu raster=cpu "
+                              "bloom=cpu composite=cpu");
     const char *const bad[] = {"0", "65", "-1", "", "8x", "8:8"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         char flag[32];
@@ -233,7 +232,7 @@ static void combinations_start_with_the_pinned_one(void **state)
     (void)state;
     struct kiln_device_info gpu = {.gl = true, .exact = true, .name = "Device"};
     struct kiln_technique_list list;
-    static char seen[2048][256];
+    static char seen[4096][256];
     size_t count = 0;
     for (; kiln_techniques_combination(count, &list); count++) {
         const char *flags[KILN_STAGE_COUNT];
@@ -245,34 +244,37 @@ static void combinations_start_with_the_pinned_one(void **state)
         kiln_techniques_describe(&techniques, seen[count], sizeof seen[count]);
         for (size_t i = 0; i < count; i++)
             assert_string_not_equal(seen[i], seen[count]);
-        assert_true(count < 2047);
+        assert_true(count < 4095);
     }
-    assert_true(count >= 1280);
+    assert_true(count >= 2560);
     assert_string_equal(
-        seen[0], "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        seen[0],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(
-        seen[1], "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=gl");
+        seen[1],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=gl");
     assert_string_equal(
-        seen[2], "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=gl composite=cpu");
+        seen[2],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=gl composite=cpu");
+    assert_string_equal(seen[4], "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu "
+                                 "raster=geometry bloom=cpu composite=cpu");
+    assert_string_equal(seen[8], "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu "
+                                 "raster=instanced bloom=cpu composite=cpu");
+    assert_string_equal(seen[12], "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu "
+                                  "raster=tiled bloom=cpu composite=cpu");
     assert_string_equal(
-        seen[4],
-        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu");
-    assert_string_equal(
-        seen[8],
-        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=instanced bloom=cpu composite=cpu");
-    assert_string_equal(
-        seen[12],
-        "simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=tiled bloom=cpu composite=cpu");
-    assert_string_equal(
-        seen[16], "simulate=cpu gas=cpu sort=cpu backdrop=gl raster=cpu bloom=cpu composite=cpu");
+        seen[16],
+        "simulate=cpu gas=cpu sort=cpu backdrop=cpu march=gl raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(
         seen[32],
-        "simulate=cpu gas=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_string_equal(
-        seen[128], "simulate=cpu gas=gl sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        "simulate=cpu gas=cpu sort=cpu backdrop=gl march=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[64], "simulate=cpu gas=cpu sort=radix backdrop=cpu march=cpu "
+                                  "raster=cpu bloom=cpu composite=cpu");
     assert_string_equal(
         seen[256],
-        "simulate=inplace gas=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
+        "simulate=cpu gas=gl sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=cpu");
+    assert_string_equal(seen[512], "simulate=inplace gas=cpu sort=cpu backdrop=cpu march=cpu "
+                                   "raster=cpu bloom=cpu composite=cpu");
 }
 
 int main(void)

@@ -13,8 +13,8 @@
 
 enum { TEXEL = 16 };
 
-static_assert(sizeof(struct kiln_gas_block) == 128, "std140");
-static_assert(KILN_MAX_GAS == 4, "domains of struct kiln_gas_block");
+static_assert(sizeof(struct kiln_gas_before_block) == 128, "std140");
+static_assert(KILN_MAX_GAS == 4, "domains of struct kiln_gas_before_block");
 static_assert(sizeof(struct kiln_volume_profile) == 64 &&
                   offsetof(struct kiln_volume_profile, count) == 32 && VOLUME_PACKET == 8 &&
                   VOLUME_NODE * sizeof(uint16_t) == TEXEL && VOLUME_NODES <= 32 &&
@@ -23,12 +23,12 @@ static_assert(sizeof(struct kiln_volume_profile) == 64 &&
 
 struct kiln_gas_before {
     struct kiln_device *device;
-    struct kiln_buffer block;                /* struct kiln_gas_block */
+    struct kiln_buffer block;                /* struct kiln_gas_before_block */
     GLuint buffer, texture;                  /* the profiles */
     uint64_t texels;                         /* of the buffer */
     const struct kiln_volume_profiles *sent; /* NULL: none yet */
     uint64_t sent_drawn;                     /* `drawn` of them */
-    uint4 domains[KILN_MAX_GAS];             /* as in struct kiln_gas_block */
+    uint4 domains[KILN_MAX_GAS];             /* as in struct kiln_gas_before_block */
 };
 
 uint32_t kiln_gas_before_domains(const struct kiln_scene *scene)
@@ -74,7 +74,8 @@ struct kiln_gas_before *kiln_gas_before_create(struct kiln_device *device, struc
         return NULL;
     }
     g->device = device;
-    kiln_buffer_init(&g->block, device, sizeof(struct kiln_gas_block), "gas before particles");
+    kiln_buffer_init(&g->block, device, sizeof(struct kiln_gas_before_block),
+                     "gas before particles");
     glGenBuffers(1, &g->buffer);
     glGenTextures(1, &g->texture);
     if (!make_room(g, 1, error))
@@ -161,7 +162,7 @@ bool kiln_gas_before_bind(struct kiln_gas_before *gas, const struct kiln_tile_ga
                           struct kiln_error *error)
 {
     const struct kiln_volume_profiles *p = of ? of->profiles : NULL;
-    struct kiln_gas_block block;
+    struct kiln_gas_before_block block;
     memset(&block, 0, sizeof block);
     if (p && (gas->sent != p || gas->sent_drawn != p->drawn) && !send_profiles(gas, p, error))
         return false;

@@ -18,8 +18,6 @@
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_order.h"
 #include "draw/volume/volume_put.h"
-#include "scene/gas_extent.h"
-#include "scene/work.h"
 
 struct kiln_volume_stage {
     const struct kiln_scene *scene;
@@ -34,7 +32,8 @@ struct kiln_volume_stage {
     struct kiln_volume_slices slices;
     struct kiln_volume_glow glow;
     struct kiln_volume_tiles tiles;
-    uint8_t *touched; /* of each tile: gas was drawn there */
+    struct kiln_volume_gl *gl; /* NULL: the host marches */
+    uint8_t *touched;          /* of each tile: gas was drawn there */
     struct kiln_volume_planes planes;
     float *grid;   /* rays of every second pixel of every second row; NULL: no domain has it */
     float *passed; /* optical depth of the domains before one, of each pixel; NULL until needed */
@@ -58,24 +57,6 @@ static size_t tile_count(const struct kiln_scene *scene)
     return (size_t)kiln_tiles_along(scene->width) * kiln_tiles_along(scene->height);
 }
 
-/* Returns the bytes of the grid; 0: no domain has it. */
-static size_t grid_bytes(const struct kiln_scene *scene)
-{
-    bool half = false;
-    for (uint32_t i = 0; i < scene->gas_count; i++)
-        half |= scene->gas[i].enabled && scene->gas[i].look.resolution == KILN_GAS_HALF;
-    return half ? kiln_volume_grid_bytes(scene->width, scene->height) : 0;
-}
-
-bool kiln_volume_exists(const struct kiln_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->gas_count; i++) {
-        if (scene->gas[i].enabled)
-            return true;
-    }
-    return false;
-}
-
 struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, bool glow,
                                              struct kiln_threads *threads, struct kiln_error *error)
 {
@@ -91,7 +72,8 @@ struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, b
         stage->planes.smoke = kiln_alloc_pages(plane);
         stage->planes.flame = kiln_alloc_pages(plane);
         stage->planes.glow = glow ? kiln_alloc_pages(plane) : NULL;
-        stage->grid = grid_bytes(scene) > 0 ? kiln_alloc_pages(grid_bytes(scene)) : NULL;
+        stage->grid =
+            kiln_volume_grid_of(scene) > 0 ? kiln_alloc_pages(kiln_volume_grid_of(scene)) : NULL;
         stage->touched = malloc(tile_count(scene));
         kiln_observer_fill(&stage->observer);
     }
@@ -99,35 +81,18 @@ struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, b
         stage->shade = kiln_sun_shade_create(scene, error);
     if (!stage || (scene->backdrop.object_count > 0 && !stage->shade) || !stage->planes.smoke ||
         !stage->planes.flame || !stage->touched || (glow && !stage->planes.glow) ||
-        (grid_bytes(scene) > 0 && !stage->grid)) {
+        (kiln_volume_grid_of(scene) > 0 && !stage->grid)) {
         kiln_error_no_memory(error, "drawn gas");
         kiln_volume_destroy(&stage);
     }
     return stage;
 }
 
-void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
+bool kiln_volume_use_gl(struct kiln_volume_stage *stage, struct kiln_device *device,
+                        struct kiln_error *error)
 {
-    const uint64_t pixels = (uint64_t)scene->width * scene->height;
-    uint64_t largest = 0;
-    uint32_t drawn = 0;
-    if (!kiln_volume_exists(scene))
-        return;
-    for (uint32_t i = 0; i < scene->gas_count; i++) {
-        const struct kiln_gas_extent extent = kiln_gas_extent(scene, i);
-        const struct kiln_gas_place cells = extent.cells;
-        const uint64_t bytes = kiln_volume_field_bytes(&scene->gas[i].shape, extent.bricks) +
-                               kiln_volume_slices_bytes(cells) + kiln_volume_glow_bytes(cells);
-        largest = scene->gas[i].enabled && bytes > largest ? bytes : largest;
-        drawn += scene->gas[i].enabled;
-    }
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_GAS, 1, largest);
-    if (scene->backdrop.object_count > 0)
-        kiln_sun_shade_footprint(scene, footprint);
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, pixels, 12 * sizeof(float));
-    kiln_footprint_add(footprint, KILN_FOOTPRINT_PICTURE, 1, grid_bytes(scene));
-    if (kiln_scene_sprite_slots(scene) > 0)
-        kiln_volume_profiles_footprint(drawn, scene->width, scene->height, footprint);
+    stage->gl = kiln_volume_gl_create(device, stage->width, stage->height, error);
+    return stage->gl != NULL;
 }
 
 void kiln_volume_destroy(struct kiln_volume_stage **stage)
@@ -138,6 +103,7 @@ void kiln_volume_destroy(struct kiln_volume_stage **stage)
     kiln_volume_field_finish(&s->field);
     kiln_volume_glow_finish(&s->glow);
     kiln_volume_tiles_finish(&s->tiles);
+    kiln_volume_gl_destroy(&s->gl);
     kiln_volume_profiles_finish(&s->profiles);
     kiln_sun_shade_destroy(&s->shade);
     free(s->slices.floats);
@@ -431,6 +397,18 @@ static bool fill_field(struct kiln_volume_stage *s, const struct domain *domain,
     return true;
 }
 
+/* Marches through a domain, and adds the time that it takes: in GL that of a clock. */
+static bool march(struct kiln_volume_stage *s, const struct kiln_volume_cast *cast,
+                  struct kiln_error *error)
+{
+    double unused_s = 0.0;
+    const double start_s = kiln_clock_seconds();
+    const bool ok = kiln_volume_cast(cast, s->threads, error);
+    end_lap(s, s->gl ? &unused_s : &s->costs.march_s);
+    s->costs.march_s += s->gl ? kiln_clock_seconds() - start_s : 0.0;
+    return ok;
+}
+
 /* Says how a domain is drawn. */
 struct domain_draw {
     uint32_t number;
@@ -456,7 +434,8 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
     set_detail(s->scene, &s->scene->gas[number], draw->moment, &domain.march);
     if (how->halfway_only)
         domain.march.planes = (struct kiln_volume_planes){.smoke = NULL};
-    if (!(how->kept && s->lit) && !fill_field(s, &domain, gas, !how->halfway_only, error))
+    const bool same = how->kept && s->lit;
+    if (!same && !fill_field(s, &domain, gas, !how->halfway_only, error))
         return false;
     if (s->field.count == 0)
         return true;
@@ -467,10 +446,10 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
                                           .rows = KILN_SIMD_PICK(kiln_volume_march_rows, s->simd),
                                           .tiles = &s->tiles,
                                           .touched = s->touched,
-                                          .grid = half && !how->halfway_only ? s->grid : NULL};
-    const bool ok = kiln_volume_cast(&cast, s->threads, error);
-    end_lap(s, &s->costs.march_s);
-    return ok;
+                                          .grid = half && !how->halfway_only ? s->grid : NULL,
+                                          .gl = s->gl,
+                                          .same_field = same};
+    return march(s, &cast, error);
 }
 
 /* ---- pictures -------------------------------------------------------------------------------- */
@@ -508,6 +487,19 @@ static bool find_halfway(struct kiln_volume_stage *s, const struct kiln_volume_d
     return ok;
 }
 
+/* Empties the planes, and opens the depths of the scene where the march reads them. depth: gets
+ * those on the host. */
+static bool begin_planes(struct kiln_volume_stage *s, struct kiln_image *image, const float **depth,
+                         struct kiln_error *error)
+{
+    struct kiln_volume_put empty = {.planes = &s->planes, .width = s->width};
+    if (s->gl)
+        return kiln_volume_gl_begin(s->gl, image, error);
+    *depth = kiln_image_host(image, KILN_READ, error);
+    return *depth &&
+           kiln_threads_try(s->threads, s->height, 64, kiln_volume_clear_rows, &empty, error);
+}
+
 bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
                       struct kiln_error *error)
 {
@@ -530,10 +522,8 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
         return false;
     if (stage->shade)
         kiln_sun_shade_place(stage->shade, moment);
-    how.depth = kiln_image_host(draw->depth, KILN_READ, error);
-    struct kiln_volume_put empty = {.planes = &stage->planes, .width = stage->width};
-    if (!how.depth ||
-        !kiln_threads_try(stage->threads, stage->height, 64, kiln_volume_clear_rows, &empty, error))
+    float *const halfway_m = how.halfway.depth_m;
+    if (!begin_planes(stage, draw->depth, &how.depth, error))
         return false;
     stage->lap_s = kiln_clock_cpu_seconds();
     if (draw->halfway && count > 1) {
@@ -547,7 +537,7 @@ bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_
         if (!draw_domain(stage, draw, &how, error))
             return false;
     }
-    return true;
+    return !stage->gl || kiln_volume_gl_end(stage->gl, &stage->planes, halfway_m, error);
 }
 
 struct kiln_volume_costs kiln_volume_costs(const struct kiln_volume_stage *stage)

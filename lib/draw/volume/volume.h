@@ -1,6 +1,7 @@
 /* Stage 4c draws gas: smoke and fire of the scene's domains, by a march of rays (Heinz 2019,
- * 2.3.2). It always runs on the host, in vectors, from the states of the domains. Its pictures are
- * the same bytes on every machine.
+ * 2.3.2). The host lights the gas, from the states of the domains, and marches in vectors, or lets
+ * GL march. Pictures of the host are the same bytes on every machine; those of GL differ by
+ * rounding.
  *
  * Gas hides the backdrop, objects and solid particles behind it. Other particles are blended with
  * it by the profiles of its rays (volume_profile.h), which all rasters read. */
@@ -12,6 +13,8 @@
 #include "draw/light/lighting.h"
 #include "draw/volume/volume_profile.h"
 #include "gpu/image.h"
+
+enum kiln_march_technique { KILN_MARCH_CPU, KILN_MARCH_GL };
 
 struct kiln_volume_stage;
 
@@ -31,6 +34,12 @@ bool kiln_volume_exists(const struct kiln_scene *scene);
 struct kiln_volume_stage *kiln_volume_create(const struct kiln_moment *moment, bool glow,
                                              struct kiln_threads *threads,
                                              struct kiln_error *error);
+
+/* Lets GL march the rays of a new stage, one for each pixel whatever look.resolution says. device
+ * must outlive the stage. kiln_volume_draw then fails with KILN_DEVICE_FAILED, and advice in the
+ * message, where the device's storage blocks are too small. */
+bool kiln_volume_use_gl(struct kiln_volume_stage *stage, struct kiln_device *device,
+                        struct kiln_error *error);
 
 /* Adds the memory of the stage. Adds nothing for a scene without gas. */
 void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint);
@@ -54,8 +63,8 @@ struct kiln_volume_draw {
 bool kiln_volume_draw(struct kiln_volume_stage *stage, const struct kiln_volume_draw *draw,
                       struct kiln_error *error);
 
-/* Holds what a call of kiln_volume_draw has taken: seconds of all threads together, and the work of
- * the march. */
+/* Holds what a call of kiln_volume_draw has taken: seconds of all threads together, for a march in
+ * GL those of a clock; and the work of the march. */
 struct kiln_volume_costs {
     double field_s; /* copying gas to blocks */
     double light_s; /* of sun, sky and lamps */

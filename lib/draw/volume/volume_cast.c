@@ -21,6 +21,14 @@ struct visit {
     void (*tile)(const struct kiln_volume_march *march, const struct kiln_volume_tile *tile);
 };
 
+/* Notes that gas may lie in a tile. */
+static void touch(const struct kiln_volume_cast *cast, size_t tile, float near_m)
+{
+    if (cast->march->profiles)
+        cast->march->profiles->near_m[tile] = near_m;
+    cast->touched[tile] = 1;
+}
+
 /* Visits the tiles of rows of tiles that gas touches. */
 static void visit_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
@@ -36,10 +44,8 @@ static void visit_rows(void *context, size_t begin, size_t end, uint32_t worker)
                                                   depths.near_m, depths.far_m};
             if (!(depths.near_m < depths.far_m))
                 continue;
-            if (cast->march->profiles)
-                cast->march->profiles->near_m[number] = depths.near_m;
+            touch(cast, number, depths.near_m);
             visit->tile(cast->march, &tile);
-            cast->touched[number] = 1;
         }
 }
 
@@ -69,6 +75,19 @@ static void place_grid(const struct kiln_volume_cast *cast)
         m->far_m = exact_max(m->far_m, cast->tiles->depths[i].far_m);
 }
 
+/* Marches through all tiles in GL. */
+static bool cast_in_gl(const struct kiln_volume_cast *cast, struct kiln_error *error)
+{
+    const size_t tiles =
+        (size_t)kiln_tiles_along(cast->march->width) * kiln_tiles_along(cast->march->height);
+    for (size_t i = 0; i < tiles; i++) {
+        const struct kiln_tile_depths depths = cast->tiles->depths[i];
+        if (depths.near_m < depths.far_m)
+            touch(cast, i, depths.near_m);
+    }
+    return kiln_volume_gl_march(cast->gl, cast->march, cast->tiles, cast->same_field, error);
+}
+
 bool kiln_volume_cast(const struct kiln_volume_cast *cast, struct kiln_threads *threads,
                       struct kiln_error *error)
 {
@@ -76,6 +95,8 @@ bool kiln_volume_cast(const struct kiln_volume_cast *cast, struct kiln_threads *
     struct visit visit = {cast, cast->rows->draw};
     if (!kiln_volume_tiles_find(cast->tiles, cast->march, threads, error))
         return false;
+    if (cast->gl)
+        return cast_in_gl(cast, error);
     if (!cast->grid)
         return kiln_threads_try(threads, down, 1, visit_rows, &visit, error);
     place_grid(cast);

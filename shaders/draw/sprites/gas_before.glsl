@@ -11,7 +11,7 @@
 #ifdef GAS
 #include "shared/gas_profile.h"
 
-layout(std140, binding = KILN_BIND_GAS) uniform gas_uniforms { kiln_gas_block gas; };
+layout(std140, binding = KILN_BIND_GAS) uniform gas_uniforms { kiln_gas_before_block gas; };
 layout(binding = KILN_UNIT_PROFILES) uniform usamplerBuffer profiles;
 
 /* What gas does to what is behind it. */

@@ -31,12 +31,12 @@
 #include "shared/billboard_light.h"
 #include "shared/billboard_place.h"
 #include "shared/heading.h"
-#ifdef HAZE
-#include "shared/haze.h"
-#include "shared/surface_light.h"
-#endif
 
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
+
+#ifdef HAZE
+#include "draw/light/haze.glsl"
+#endif
 
 #include "draw/light/smoke_shadow.glsl"
 
@@ -132,22 +132,6 @@ vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream
 }
 
 #ifdef HAZE
-
-/* Returns the colour of haze in a level direction. */
-vec3 haze_toward(vec3 level)
-{
-    vec3 color = backdrop.sky_horizon.rgb;
-    if (backdrop.counts.x != 0u) {
-        float place = haze_place(level);
-        int low = int(place), parts = KILN_HAZE_PARTS - 1;
-        color = mix(backdrop.haze[low & parts].rgb, backdrop.haze[(low + 1) & parts].rgb,
-                    place - float(low));
-    }
-    if (backdrop.sky_horizon.w <= 0.0)
-        return color;
-    float glow = sky_glow(level, backdrop.sun_direction, backdrop.floor_params.w);
-    return color + backdrop.sun_color.rgb * (backdrop.sky_horizon.w * glow);
-}
 
 /* Puts haze before the particle, all of which is as far away as its middle: dims what it emits and
  * reflects, and adds the haze itself, which is as opaque as each place on the particle. For cells

@@ -33,6 +33,8 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,sort=oddeven	odd-even merge sort, compute; oddeven:N spreads it over N frames
 1|word	sort=cpu,backdrop=cpu	host threads, rays in vectors
 1|word	sort=cpu,backdrop=gl	fragment shaders
+1|word	sort=cpu,march=cpu	host threads, rays through gas in vectors
+1|word	sort=cpu,march=gl	compute, a ray through gas for each pixel
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader
 1|word	sort=cpu,raster=instanced	a quad for each particle, without a geometry shader

@@ -123,7 +123,7 @@ $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 = 2
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 1|device: <device>
-2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); allowed are simulate, gas, sort, backdrop, raster, bloom, composite
+2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); allowed are simulate, gas, sort, backdrop, march, raster, bloom, composite
 = 2
 
 Statistics and progress for people and for programs.
@@ -147,11 +147,12 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  steps        18
 1|  particles    36 alive, 82 slots, 3280 bytes (40.0 a slot)
 1|  memory <MiB> at the peak
-1|  techniques   simulate=cpu gas=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu
+1|  techniques   simulate=cpu gas=cpu sort=cpu backdrop=cpu march=cpu raster=geometry bloom=cpu composite=cpu
 1|  chosen       simulate=cpu: as asked for
 1|               gas=cpu: vectors on the host are some 20 times as fast as GL on the same cores
 1|               sort=cpu: as asked for
 1|               backdrop=cpu: vectors on the host are several times as fast as GL on the same cores
+1|               march=cpu: vectors on the host are several times as fast as GL on the same cores
 1|               raster=geometry: as asked for
 1|               bloom=cpu: vectors on the host are several times as fast as GL on the same cores
 1|               composite=cpu: the host is faster than GL on the same cores

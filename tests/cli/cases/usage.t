@@ -537,6 +537,8 @@ $ kiln help techniques
 1|  sort=oddeven       odd-even merge sort, compute; oddeven:N spreads it over N frames
 1|  backdrop=cpu       host threads, rays in vectors
 1|  backdrop=gl        fragment shaders
+1|  march=cpu          host threads, rays through gas in vectors
+1|  march=gl           compute, a ray through gas for each pixel
 1|  raster=cpu         host threads, tiles and vectors
 1|  raster=geometry    points turned into billboards by a geometry shader
 1|  raster=instanced   a quad for each particle, without a geometry shader
@@ -551,6 +553,7 @@ $ kiln help techniques
 1|  gas=cpu            vectors on the host are some 20 times as fast as GL on the same cores
 1|  sort=cpu           threads sort several times as fast as GL on the same cores
 1|  backdrop=cpu       vectors on the host are several times as fast as GL on the same cores
+1|  march=cpu          vectors on the host are several times as fast as GL on the same cores
 1|  raster=cpu         vectors on the host draw several times as fast as GL on the same cores
 1|  bloom=cpu          vectors on the host are several times as fast as GL on the same cores
 1|  composite=cpu      the host is faster than GL on the same cores
@@ -560,6 +563,7 @@ $ kiln help techniques
 1|  gas=gl             all cells of a pass are computed at once, where they lie
 1|  sort=bitonic       up to 250,000 particles it is the fastest sort on a GPU
 1|  backdrop=gl        the hardware casts the rays
+1|  march=gl           the rays of all pixels march at once
 1|  raster=tiled       compute draws faster than the blending units of a server's GPU
 1|  bloom=gl           the picture is in GL already
 1|  composite=gl       the picture is in GL already
@@ -569,6 +573,7 @@ $ kiln help techniques
 1|  gas=cpu            only exact arithmetic may move gas
 1|  sort=cpu           only exact arithmetic may order particles
 1|  backdrop=gl        the hardware casts the rays
+1|  march=gl           the rays of all pixels march at once
 1|  raster=tiled       compute draws faster than the blending units of a server's GPU
 1|  bloom=gl           the picture is in GL already
 1|  composite=gl       the picture is in GL already

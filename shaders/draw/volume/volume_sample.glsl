@@ -1,0 +1,131 @@
+/* Samples the blocks of a domain of gas for a step of a ray, and adds the step's light, as
+ * lib/draw/volume/volume_march_simd.c does on the host. */
+
+/* As in volume_march_simd.c and volume_march.h. */
+const float DETAIL = 0.6, DETAIL_SEEN = 1.0 / 2048.0, NOISE_CELL = 3.0, HOTTEST = 1.25;
+
+/* A block in the array of cells: rows and planes have one cell more than a brick has. */
+const uint EDGE = 9u, PLANE = EDGE * EDGE, BLOCK = EDGE * PLANE;
+
+/* The sample of a step. */
+struct step_place {
+    vec3 at, part;        /* in the window, cells; the way to the next cell */
+    uint cell;            /* number of the cell among those of all blocks */
+    bool some;            /* false: there is no block */
+    float middle, span;   /* of the step's segment, cells */
+    float leaves;         /* where the ray leaves the brick */
+};
+
+/* What gas there is, and the light that reaches it. */
+struct gas_cell {
+    float smoke, flame, temperature, sun, scattered;
+    vec3 light, tint;
+};
+
+step_place find_place(ray r, float number)
+{
+    step_place s;
+    float begin = max(number * march.up.w, r.from), end = min((number + 1.0) * march.up.w, r.to);
+    s.middle = 0.5 * (begin + end);
+    s.at = clamp(march.eye.xyz + r.way * s.middle - 0.5, vec3(0.0), vec3(march.cells.xyz - 1u));
+    uvec3 cell = uvec3(s.at), brick = cell >> 3, within = cell & 7u;
+    s.part = s.at - vec3(cell);
+    vec3 side = vec3(ivec3(brick) + ivec3(greaterThan(r.way, vec3(0.0)))) * 8.0 + 0.5;
+    vec3 leaves = (side - march.eye.xyz) * r.inverse;
+    s.leaves = min(leaves.x, min(leaves.y, leaves.z));
+    int block = int(places[(brick.z * march.bricks.y + brick.y) * march.bricks.x + brick.x]);
+    s.some = begin < end && block >= 0;
+    s.cell = s.some ? uint(block) * BLOCK + within.z * PLANE + within.y * EDGE + within.x : 0u;
+    s.span = s.some ? end - begin : 0.0;
+    return s;
+}
+
+/* Interpolates between eight cells of an array, which has `stride` elements a cell. */
+#define INTERPOLATE(array, s, stride, offset)                                                      \
+    mix(mix(mix(array[((s).cell) * stride + offset], array[((s).cell + 1u) * stride + offset],     \
+                (s).part.x),                                                                       \
+            mix(array[((s).cell + EDGE) * stride + offset],                                        \
+                array[((s).cell + EDGE + 1u) * stride + offset], (s).part.x),                      \
+            (s).part.y),                                                                           \
+        mix(mix(array[((s).cell + PLANE) * stride + offset],                                       \
+                array[((s).cell + PLANE + 1u) * stride + offset], (s).part.x),                     \
+            mix(array[((s).cell + PLANE + EDGE) * stride + offset],                                \
+                array[((s).cell + PLANE + EDGE + 1u) * stride + offset], (s).part.x),              \
+            (s).part.y),                                                                           \
+        (s).part.z)
+
+gas_cell sample_gas(step_place s)
+{
+    vec4 low = INTERPOLATE(blocks, s, 2u, 0u), high = INTERPOLATE(blocks, s, 2u, 1u);
+    gas_cell g = gas_cell(max(low.x, 0.0), max(low.y, 0.0), low.z, low.w, high.x, high.yzw,
+                          vec3(0.0));
+    g.tint = (march.cells.w & MARCH_COLORED) != 0u ? INTERPOLATE(tints, s, 1u, 0u).rgb
+                                                   : g.smoke * march.albedo.rgb;
+    return g;
+}
+
+/* Returns the noise of a group of ways at a place in its lattice. */
+float noise_of(vec3 place, float weight)
+{
+    float sum = weight * noise_at(place);
+    if (march.detail.z > 1.0)
+        sum += 0.6 * weight * noise_at(2.0 * place);
+    return sum;
+}
+
+/* Changes sampled gas by noise where it came from, if the step changes the ray enough for its noise
+ * to be seen. */
+void add_detail(ray r, step_place s, inout gas_cell g)
+{
+    float amount = g.smoke * march.albedo.w + g.flame * (march.detail.w + march.to_sun.w);
+    if (r.clear * s.span * march.right.w * amount <= DETAIL_SEEN)
+        return;
+    vec3 place = s.at + march.lattice.xyz;
+    vec3 first = (place + march.lattice.w * INTERPOLATE(ways, s, 2u, 0u).xyz) / NOISE_CELL;
+    vec3 second = (place + march.lattice.w * INTERPOLATE(ways, s, 2u, 1u).xyz) / NOISE_CELL;
+    float sum = noise_of(first, march.detail.x) + noise_of(second + 511.5, march.detail.y);
+    float variance = march.detail.z > 1.0 ? 1.36 : 1.0;
+    float factor = exp(DETAIL * sum - 0.5 * DETAIL * DETAIL * variance);
+    g.smoke *= factor;
+    g.tint *= factor;
+    g.flame *= sqrt(factor);
+}
+
+/* Returns the light of flames by their temperature. */
+vec3 flame_light(float temperature)
+{
+    float most = float(MARCH_FLAME_COLORS);
+    float place = clamp(temperature * (most / HOTTEST), 0.0, most - 0.001);
+    uint low = uint(place);
+    return mix(march.colors[low].rgb, march.colors[low + 1u].rgb, place - float(low));
+}
+
+/* Finds where the ray becomes half opaque, if it does in a step. before: optical depth. */
+void find_halfway(inout ray r, step_place s, float before)
+{
+    if (before >= r.half_depth || r.half_depth > r.depth)
+        return;
+    float part = (r.half_depth - before) / max(r.depth - before, 1e-20);
+    r.half_place = s.middle + s.span * (part - 0.5);
+}
+
+/* Adds the light of a step, and dims what is behind it. */
+void add_step(inout ray r, step_place s, gas_cell g)
+{
+    float extinction = g.smoke * march.albedo.w + g.flame * march.detail.w;
+    float len = s.span * march.right.w, depth = extinction * len, left = exp(-depth);
+    float thick = (1.0 - left) / max(extinction, 1e-20), thin = len * (1.0 - 0.5 * depth);
+    float seen = r.clear * (depth > 1e-3 ? thick : thin);
+    float sun = g.sun * r.first + g.scattered * r.wide;
+    r.smoke += seen * march.albedo.w * g.tint * (sun * march.sun.rgb + g.light);
+    float amount = seen * (extinction + g.flame);
+    r.weight += amount;
+    r.far += amount * s.middle;
+    r.flame += seen * g.flame * march.to_sun.w * flame_light(g.temperature);
+    float before = r.depth;
+    r.clear *= left;
+    r.depth += depth;
+    find_halfway(r, s, before);
+    if (r.clear < VOLUME_OPAQUE_BELOW)
+        r.clear = r.to = 0.0;
+}
