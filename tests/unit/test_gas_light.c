@@ -1,6 +1,7 @@
-/* lib/draw/light/gas_cells and gas_light, lib/draw/volume/volume_lamps: gas would throw too dark or
- * too light a shadow on what is around it, its flames would shed too much light, from the wrong
- * place, or light that jumps, or lamps would shine on gas through smoke and objects. */
+/* lib/draw/light/gas_cells and gas_light, lib/draw/volume/volume_lamps and volume_shade: gas would
+ * throw too dark or too light a shadow on what is around it, its flames would shed too much light,
+ * from the wrong place, or light that jumps, or lamps, sun and sky would shine on gas through smoke
+ * and objects. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -187,6 +188,42 @@ static void only_gas_with_shadows_dims(void **state)
         finish_shadow(s);
         gas_view_close(&f);
     }
+}
+
+/* Without a domain, its gas does not dim, and a puff of smoke beside it does. */
+static void a_domain_is_left_out(void **state)
+{
+    (void)state;
+    struct gas_view f;
+    struct shadow *s = new_shadow();
+    static float all[GRID * GRID * GRID];
+    float *const depths[] = {s->depth};
+    gas_view_open(&f);
+    struct kiln_gas *gas = add(&f, look_of(0.7f, 0.0f, 0.0f));
+    gas_fixture_full(gas, 32, 2.0f / 32.0f, 1.0f, 0.0f, 0.0f);
+    f.scene->gas[0].shape = gas->shape;
+    struct kiln_puff puff = {.position = {3.0f, 1.0f, 0.0f}, .radius = 1.0f, .extinction = 2.0f};
+    uint32_t count = 1;
+    const struct kiln_smoke smoke = {
+        .puffs = &puff, .counts = &count, .chunk_count = 1, .gas = &s->cells};
+    s->threads = kiln_threads_create(2);
+    s->shadow = kiln_smoke_shadow_create();
+    s->grid = (struct kiln_smoke_grid){.direction = {0, 1, 0}, .depth = s->depth};
+    gather(&f, &s->cells, s->threads);
+    assert_true(kiln_smoke_shadow_fill(s->shadow, &smoke, s->threads, &s->grid, 1));
+    const double below_gas = depth_at(s, 0, -1, 0), below_puff = depth_at(s, 3, -1, 0);
+    assert_near(below_gas, 1.4, 0.04);
+    assert_true(below_puff > 0.5);
+    memcpy(all, s->depth, sizeof all);
+    assert_true(kiln_smoke_shadow_without(s->shadow, 0, s->threads, depths, 1));
+    assert_near(depth_at(s, 0, -1, 0), 0.0, 0.0);
+    assert_near(depth_at(s, 3, -1, 0), below_puff, 0.0);
+    assert_true(kiln_smoke_shadow_without(s->shadow, 1, s->threads, depths, 1));
+    assert_memory_equal(s->depth, all, sizeof all);
+    count = 0;
+    assert_true(!kiln_smoke_shadow_without(s->shadow, 0, s->threads, depths, 1));
+    finish_shadow(s);
+    gas_view_close(&f);
 }
 
 /* ---- light of flames ------------------------------------------------------------------------- */
@@ -399,6 +436,72 @@ static void objects_hide_lamps_from_gas(void **state)
     gas_view_close(&f);
 }
 
+/* ---- sun and sky on gas ---------------------------------------------------------------------- */
+
+/* What lights thin gas through a slab. */
+enum light { SUN, SKY };
+
+/* Returns the light of the middle of thin gas below a slab of 2 m, which hides `extinction` a metre
+ * and throws a shadow or not. bits: whether the picture is also compared between levels and
+ * threads.
+ */
+static double lit_below_slab(enum light light, float extinction, bool shadow, bool bits)
+{
+    struct gas_view f;
+    struct kiln_error error = {0};
+    gas_view_open(&f);
+    struct kiln_gas_look look = look_of(0.001f, 0.0f, 0.0f);
+    look.albedo = gas_view_value3(0.8f, 0.8f, 0.8f);
+    gas_fixture_full(add(&f, look), 64, 2.0f / 64.0f, 1.0f, 0.0f, 0.0f);
+    look.extinction = gas_view_value(extinction);
+    look.shadow = shadow;
+    struct kiln_gas *slab = add(&f, look);
+    gas_fixture_full(slab, 64, 2.0f / 64.0f, 1.0f, 0.0f, 0.0f);
+    slab->shape.corner.y += 3.0f; /* above the picture */
+    for (int i = 0; i < 2; i++)
+        f.scene->gas[i].shape = f.pool.gas[i].shape;
+    f.scene->backdrop.sun_direction = gas_view_value3(0.0f, 1.0f, 0.0f);
+    assert_true(kiln_moment_fill(&f.moment, NULL, kiln_instant_at_step(0), false, &error));
+    if (light == SUN)
+        f.light.sun_color = (float4){9.0f, 9.0f, 9.0f, 0.0f};
+    else
+        f.light.sky_top = f.light.sky_horizon = (float4){9.0f, 9.0f, 9.0f, 0.0f};
+    struct kiln_threads *threads = kiln_threads_create(1);
+    struct kiln_lighting_stage *stage = kiln_lighting_create(NULL, &f.moment, threads, &error);
+    struct kiln_lighting lighting;
+    assert_non_null(stage);
+    f.moment.pool = &f.pool;
+    assert_true(kiln_lighting_run(stage, &f.moment, &f.pool, &lighting, &error));
+    f.lighting = &lighting;
+    const double lit = (double)gas_view_draw(&f)[MIDDLE];
+    if (bits)
+        gas_view_assert_bits(&f);
+    kiln_lighting_destroy(&stage);
+    kiln_threads_destroy(&threads);
+    gas_view_close(&f);
+    return lit;
+}
+
+/* A slab of depth d over thin gas leaves known parts of its sun: exp(-d) of what is scattered once,
+ * and more of the octaves that have gone round it. Of the sky it leaves exp(-d / 2). Gas that
+ * throws no shadow leaves all. */
+static void other_gas_dims_sun_and_sky(void **state)
+{
+    (void)state;
+    const double open = lit_below_slab(SUN, 0.45f, false, false);
+    const double sky = lit_below_slab(SKY, 0.45f, false, false);
+    assert_true(open > 0 && sky > 0);
+    static const double extinctions[] = {0.2, 0.45, 1.1};
+    for (int i = 0; i < 3; i++) {
+        const double d = 2 * extinctions[i];
+        const double part = lit_below_slab(SUN, (float)extinctions[i], true, i == 1) / open;
+        const double most = 0.34 * exp(-d) + 0.26 * exp(-0.42 * d) + 0.07 * exp(-0.16 * d);
+        assert_near(part, most / 0.67, 0.02);
+        assert_near(lit_below_slab(SKY, (float)extinctions[i], true, i == 1) / sky, exp(-0.5 * d),
+                    0.02);
+    }
+}
+
 static void threads_do_not_change_light(void **state)
 {
     (void)state;
@@ -431,11 +534,13 @@ int main(void)
         cmocka_unit_test(a_ball_in_a_node_dims_by_its_chord),
         cmocka_unit_test(small_gas_keeps_its_sum),
         cmocka_unit_test(only_gas_with_shadows_dims),
+        cmocka_unit_test(a_domain_is_left_out),
         cmocka_unit_test(flames_shed_what_leaves_them),
         cmocka_unit_test(a_fire_needs_flames),
         cmocka_unit_test(lights_move_with_the_fire),
         cmocka_unit_test(smoke_dims_lamps_on_gas),
         cmocka_unit_test(objects_hide_lamps_from_gas),
+        cmocka_unit_test(other_gas_dims_sun_and_sky),
         cmocka_unit_test(threads_do_not_change_light),
     };
     return cmocka_run_group_tests_name("gas_light", tests, NULL, NULL);

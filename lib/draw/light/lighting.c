@@ -30,6 +30,7 @@ struct kiln_lighting_stage {
     struct kiln_gas_cells gas;
     struct kiln_smoke_shadow *shadow;
     float *depths;                      /* of both grids; then the extinction */
+    float *other_depths;                /* of both grids, for each domain that is_shaded */
     struct kiln_lamp_smoke *lamp_smoke; /* NULL: not needed, here and below */
     struct kiln_solid_shadow *solids;
     struct kiln_sun_shade *shade;
@@ -38,6 +39,29 @@ struct kiln_lighting_stage {
     struct kiln_lamp_solids *lamp_solids;
     struct kiln_lighting_gl *gl;
 };
+
+/* Returns whether smoke that is not its own may dim the sun and the sky in a domain. */
+static bool is_shaded(const struct kiln_scene *scene, uint32_t domain)
+{
+    if (!scene->gas[domain].enabled || !scene->gas[domain].look.lights)
+        return false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        if (kiln_system_is_smoke(&scene->systems[i]))
+            return true;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        if (i != domain && kiln_scene_gas_is_smoke(scene, i))
+            return true;
+    return false;
+}
+
+/* Returns the bytes of `other_depths`. */
+static size_t other_bytes(const struct kiln_scene *scene)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        count += is_shaded(scene, i);
+    return count * GRIDS * CELLS * sizeof(float);
+}
 
 /* Returns whether particles make light or shade, or are in it. */
 static bool particles_count(const struct kiln_lighting_stage *stage)
@@ -66,6 +90,10 @@ static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *devi
         stage->depths = malloc(((size_t)GRIDS * CELLS + COARSE) * sizeof *stage->depths);
         stage->lamp_smoke = kiln_lamp_smoke_create(simd);
     }
+    const size_t others = stage->smoke ? other_bytes(stage->scene) : 0;
+    stage->other_depths = others > 0 ? malloc(others) : NULL;
+    if (others > 0 && !stage->other_depths)
+        return false;
     return (stage->gl || !device) &&
            ((stage->shadow && stage->depths && stage->lamp_smoke) || !stage->smoke);
 }
@@ -142,7 +170,7 @@ static void add_smoke(const struct kiln_scene *scene, struct kiln_footprint *foo
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, slots, sizeof(struct kiln_puff));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, 1,
                        kiln_smoke_shadow_bytes(puffs) +
-                           ((size_t)GRIDS * CELLS + COARSE) * sizeof(float));
+                           ((size_t)GRIDS * CELLS + COARSE) * sizeof(float) + other_bytes(scene));
     kiln_footprint_add(footprint, KILN_FOOTPRINT_LIGHTS, kiln_scene_shadow_lights(scene),
                        KILN_LAMP_SMOKE_MAP * sizeof(float));
 }
@@ -175,12 +203,29 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     kiln_lamp_maps_destroy(&(*stage)->lamp_maps);
     kiln_lamp_solids_destroy(&(*stage)->lamp_solids);
     free((*stage)->depths);
+    free((*stage)->other_depths);
     kiln_smoke_finish(&(*stage)->puffs);
     kiln_gas_cells_finish(&(*stage)->gas);
     kiln_smoke_shadow_destroy(&(*stage)->shadow);
     kiln_lamp_smoke_destroy(&(*stage)->lamp_smoke);
     free(*stage);
     *stage = NULL;
+}
+
+/* Fills the grids of the smoke that dims gas and is not its own. */
+static void shade_gas(struct kiln_lighting_stage *stage, struct kiln_lighting *lighting)
+{
+    const uint32_t count = stage->sun ? 2 : 1;
+    float *sky = stage->other_depths;
+    for (uint32_t i = 0; i < stage->scene->gas_count; i++) {
+        if (!is_shaded(stage->scene, i))
+            continue;
+        float *const depths[GRIDS] = {sky, sky + CELLS};
+        if (kiln_smoke_shadow_without(stage->shadow, i, stage->threads, depths, count))
+            lighting->other_smoke[i] = (struct kiln_other_smoke){
+                .sun_depth = stage->sun ? depths[1] : NULL, .sky_depth = depths[0]};
+        sky += (size_t)GRIDS * CELLS;
+    }
 }
 
 /* Fills the grids of smoke, and the maps of smoke around lamps. Where there is no sun, every
@@ -205,6 +250,7 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_moment *m
         lighting->sun_to_grid[i] = (float4){0.0f, 0.0f, 0.0f, -1.0f};
     lighting->sky_depth = grids[0].depth;
     memcpy(lighting->sky_to_grid, grids[0].world_to_grid, sizeof lighting->sky_to_grid);
+    shade_gas(stage, lighting);
     lighting->lamp_smoke =
         kiln_lamp_smoke_run(stage->lamp_smoke, &grids[0], stage->threads, lighting->lights,
                             lighting->light_count, &lighting->lamp_smoke_count, error);

@@ -46,6 +46,7 @@ struct box {
     bool coarse;     /* whether any level but the finest has contents */
     struct pyramid parts[MOST_PARTS];
     struct kiln_gas_reader gas[KILN_MAX_GAS];
+    uint32_t gas_domain[KILN_MAX_GAS]; /* the domain that each of them reads */
     uint32_t gas_count;
 };
 
@@ -55,6 +56,7 @@ struct kiln_smoke_shadow {
     /* These are of one call of kiln_smoke_shadow_fill: */
     const struct kiln_smoke *smoke;
     uint32_t parts;
+    uint32_t left_out; /* the domain whose gas does not count; KILN_MAX_GAS: all gas counts */
 };
 
 static size_t level_floats(int level)
@@ -222,8 +224,10 @@ static void place_gas(struct box *box, const struct kiln_gas_cells *gas)
     }
     box->gas_count = 0;
     for (uint32_t i = 0; gas && i < gas->count; i++)
-        if (gas->blocks[i].shadow)
+        if (gas->blocks[i].shadow) {
+            box->gas_domain[box->gas_count] = gas->blocks[i].domain;
             box->gas[box->gas_count++] = kiln_gas_reader_of(&gas->blocks[i], origin, steps);
+        }
 }
 
 /* Holds up to BALLS balls of smoke, in cells of their levels, so that loops over balls are
@@ -488,7 +492,8 @@ static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct 
     if (box->coarse)
         add_coarser(box->finer, EDGE, y, z, extinction);
     for (uint32_t i = 0; i < box->gas_count; i++)
-        kiln_gas_reader_add(&box->gas[i], y, z, EDGE, extinction);
+        if (box->gas_domain[i] != shadow->left_out)
+            kiln_gas_reader_add(&box->gas[i], y, z, EDGE, extinction);
 }
 
 /* Computes the optical depth between each cell's centre and the light. above: from the light to the
@@ -546,6 +551,7 @@ bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_
     uint32_t useful = smoke->chunk_count / LEAST_PART;
     shadow->parts = useful < 1 ? 1 : useful > MOST_PARTS ? MOST_PARTS : useful;
     shadow->smoke = smoke;
+    shadow->left_out = KILN_MAX_GAS;
     for (uint32_t i = 0; i < count; i++) {
         shadow->boxes[i].grid = &grids[i];
         choose_axes(shadow->boxes[i].axes, grids[i].direction);
@@ -559,5 +565,36 @@ bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_
     kiln_threads_for(threads, (size_t)count * shadow->parts, 1, deposit_parts, shadow);
     kiln_threads_for(threads, count, 1, add_levels, shadow);
     kiln_threads_for(threads, (size_t)count * (EDGE / BAND), 1, sum_towards_light, shadow);
+    return true;
+}
+
+/* Returns whether there is smoke that is not the gas of a domain. */
+static bool has_others(const struct kiln_smoke_shadow *shadow, uint32_t domain)
+{
+    const struct box *box = &shadow->boxes[0];
+    for (uint32_t i = 0; i < box->gas_count; i++)
+        if (box->gas_domain[i] != domain)
+            return true;
+    for (uint32_t chunk = 0; chunk < shadow->smoke->chunk_count; chunk++)
+        if (shadow->smoke->counts[chunk] > 0)
+            return true;
+    return false;
+}
+
+bool kiln_smoke_shadow_without(struct kiln_smoke_shadow *shadow, uint32_t domain,
+                               struct kiln_threads *threads, float *const depths[], uint32_t count)
+{
+    struct kiln_smoke_grid grids[KILN_MAX_SMOKE_GRIDS], *all[KILN_MAX_SMOKE_GRIDS];
+    if (!has_others(shadow, domain))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        all[i] = shadow->boxes[i].grid;
+        grids[i] = (struct kiln_smoke_grid){.depth = depths[i]};
+        shadow->boxes[i].grid = &grids[i];
+    }
+    shadow->left_out = domain;
+    kiln_threads_for(threads, (size_t)count * (EDGE / BAND), 1, sum_towards_light, shadow);
+    for (uint32_t i = 0; i < count; i++)
+        shadow->boxes[i].grid = all[i];
     return true;
 }

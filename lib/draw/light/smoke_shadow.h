@@ -39,4 +39,11 @@ bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_
                             struct kiln_threads *threads, struct kiln_smoke_grid *grids,
                             uint32_t count);
 
+/* Fills `depths` with the optical depth of the same smoke without the gas of a domain, whose own
+ * smoke dims it otherwise (volume_light.h). It has the places of the first `count` grids of the
+ * last call of kiln_smoke_shadow_fill, which must have returned true; its grids, smoke and gas must
+ * still be there. Returns false, and fills nothing, if there is no other smoke. */
+bool kiln_smoke_shadow_without(struct kiln_smoke_shadow *shadow, uint32_t domain,
+                               struct kiln_threads *threads, float *const depths[], uint32_t count);
+
 #endif

@@ -10,14 +10,13 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/pages.h"
-#include "draw/light/sun_shade.h"
-#include "draw/moment/appearance_blocks.h"
 #include "draw/volume/volume_cast.h"
 #include "draw/volume/volume_glow.h"
 #include "draw/volume/volume_lamps.h"
 #include "draw/volume/volume_march.h"
 #include "draw/volume/volume_order.h"
 #include "draw/volume/volume_put.h"
+#include "draw/volume/volume_shade.h"
 
 struct kiln_volume_stage {
     const struct kiln_scene *scene;
@@ -124,8 +123,9 @@ struct domain {
     struct kiln_volume_march march;
     struct kiln_volume_light light;
     struct kiln_volume_frame frame;
-    float sky[3]; /* radiance of the whole sky, averaged */
-    float glow;   /* factor on the light of flames in their smoke */
+    float sky[3];                   /* radiance of the whole sky, averaged */
+    float glow;                     /* factor on the light of flames in their smoke */
+    struct kiln_volume_shade shade; /* what is in the way of sun and sky beside its own smoke */
     const struct kiln_volume_lamp *lamps;
     uint32_t lamp_count;
 };
@@ -136,48 +136,6 @@ struct finish_job {
     const struct kiln_volume_light_rows *rows;
     bool lit; /* by flames */
 };
-
-/* Finds the part of the sun that places of a block see past objects. A place counts as a ball of
- * two cells. */
-static void find_sun_parts(const struct kiln_volume_stage *s, const struct kiln_volume_frame *frame,
-                           struct kiln_gas_place brick, float parts[VOLUME_PLACES])
-{
-    enum { EDGE = VOLUME_SPARSE, COUNT = EDGE * EDGE * EDGE };
-    struct kiln_appearance_block balls;
-    float *const places[3] = {balls.position.x, balls.position.y, balls.position.z};
-    for (int32_t first = 0; first < VOLUME_PLACES; first += KILN_LANES) {
-        for (int32_t i = 0; i < KILN_LANES; i++) {
-            const int32_t n = first + i;
-            const float x = (float)(brick.x * GAS_BRICK + 2 * (n % EDGE)) + 0.5f;
-            const float y = (float)(brick.y * GAS_BRICK + 2 * (n / EDGE % EDGE)) + 0.5f;
-            const float z = (float)(brick.z * GAS_BRICK + 2 * (n / (EDGE * EDGE))) + 0.5f;
-            for (int c = 0; c < 3; c++)
-                places[c][i] = frame->corner[c] + frame->edges[0][c] * x + frame->edges[1][c] * y +
-                               frame->edges[2][c] * z;
-            balls.radius[i] = frame->cell_m;
-            balls.alive[i] = n < COUNT;
-        }
-        kiln_sun_shade_balls(s->shade, s->simd, &balls, parts + first);
-    }
-}
-
-/* Dims the sun in the cells of a block that objects hide it from. */
-static void shade_block(const struct kiln_volume_stage *s, const struct kiln_volume_frame *frame,
-                        struct kiln_gas_place brick, float *block)
-{
-    alignas(64) float parts[VOLUME_PLACES];
-    float row[GAS_BRICK];
-    find_sun_parts(s, frame, brick, parts);
-    for (int32_t z = 0; z < GAS_BRICK; z++)
-        for (int32_t y = 0; y < GAS_BRICK; y++) {
-            kiln_volume_spread(parts, y, z, row);
-            for (int32_t x = 0; x < GAS_BRICK; x++) {
-                float *cell = kiln_volume_cell(block, x, y, z);
-                cell[VOLUME_SUN] *= row[x];
-                cell[VOLUME_SCATTERED] *= row[x];
-            }
-        }
-}
 
 /* Adds the light of a lamp to a block. */
 static void light_block(const struct finish_job *job, struct kiln_gas_place brick,
@@ -204,6 +162,7 @@ static void finish_blocks(void *context, size_t begin, size_t end, uint32_t work
     for (size_t i = begin; i < end; i++) {
         const struct kiln_gas_place brick = kiln_volume_place(field, (uint32_t)i);
         float *block = kiln_volume_block(field, (uint32_t)i);
+        kiln_volume_shade_block(&job->domain->shade, &job->domain->frame, brick, block);
         for (int32_t k = 0; k < GAS_BRICK_CELLS; k++) {
             const int32_t x = k % GAS_BRICK, y = k / GAS_BRICK % GAS_BRICK;
             const int32_t z = k / (GAS_BRICK * GAS_BRICK);
@@ -219,8 +178,6 @@ static void finish_blocks(void *context, size_t begin, size_t end, uint32_t work
         }
         for (uint32_t n = 0; n < job->domain->lamp_count; n++)
             light_block(job, brick, &job->domain->lamps[n], block);
-        if (job->domain->light.sun && job->stage->shade)
-            shade_block(job->stage, &job->domain->frame, brick, block);
     }
 }
 
@@ -350,6 +307,20 @@ static void set_look(struct kiln_volume_stage *s, uint32_t number, float time_s,
     to->light.sky = to->sky[0] > 0.0f || to->sky[1] > 0.0f || to->sky[2] > 0.0f;
 }
 
+/* Sets what dims the sun and the sky in a domain. */
+static void set_shade(const struct kiln_volume_stage *s, uint32_t number,
+                      const struct kiln_lighting *lighting, struct domain *to)
+{
+    to->shade =
+        (struct kiln_volume_shade){.objects = to->light.sun ? s->shade : NULL, .simd = s->simd};
+    if (!lighting || !lighting->smoke)
+        return;
+    to->shade.sun = (struct kiln_volume_smoke){
+        to->light.sun ? lighting->other_smoke[number].sun_depth : NULL, lighting->sun_to_grid};
+    to->shade.sky = (struct kiln_volume_smoke){
+        to->light.sky ? lighting->other_smoke[number].sky_depth : NULL, lighting->sky_to_grid};
+}
+
 /* Lists the lamps that light the smoke of a domain. The light of its own flames is not among them:
  * volume_glow.h spreads it in the smoke. */
 static void set_lamps(struct kiln_volume_stage *s, uint32_t number,
@@ -430,6 +401,7 @@ static bool draw_domain(struct kiln_volume_stage *s, const struct kiln_volume_dr
                                       .counts = &s->counts}};
     place_rays(s->scene, &s->scene->gas[number], gas, draw->moment, &domain);
     set_look(s, number, draw->moment->view.clock.x, draw->backdrop, &domain);
+    set_shade(s, number, draw->lighting, &domain);
     set_lamps(s, number, draw, &domain);
     set_detail(s->scene, &s->scene->gas[number], draw->moment, &domain.march);
     if (how->halfway_only)

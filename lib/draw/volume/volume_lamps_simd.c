@@ -3,26 +3,7 @@
 #include "draw/light/ray_lamp.h"
 #include "draw/light/ray_smoke.h"
 #include "draw/volume/volume_lamps.h"
-
-enum { COUNT = VOLUME_SPARSE * VOLUME_SPARSE * VOLUME_SPARSE };
-
-/* Returns places of a block from number `first` on, m. */
-static struct vf3 places_of(const struct kiln_volume_frame *frame, struct kiln_gas_place brick,
-                            int first)
-{
-    float at[3][LANES];
-    for (int i = 0; i < LANES; i++) {
-        const int n = first + i < COUNT ? first + i : COUNT - 1;
-        const float cell[3] = {
-            (float)(brick.x * GAS_BRICK + 2 * (n % VOLUME_SPARSE)) + 0.5f,
-            (float)(brick.y * GAS_BRICK + 2 * (n / VOLUME_SPARSE % VOLUME_SPARSE)) + 0.5f,
-            (float)(brick.z * GAS_BRICK + 2 * (n / (VOLUME_SPARSE * VOLUME_SPARSE))) + 0.5f};
-        for (int c = 0; c < 3; c++)
-            at[c][i] = frame->corner[c] + frame->edges[0][c] * cell[0] +
-                       frame->edges[1][c] * cell[1] + frame->edges[2][c] * cell[2];
-    }
-    return (struct vf3){vf_load(at[0]), vf_load(at[1]), vf_load(at[2])};
-}
+#include "draw/volume/volume_places.h"
 
 void KILN_SIMD_NAME(kiln_volume_lamp_reach)(const struct kiln_volume_lamp *lamp,
                                             const struct kiln_volume_frame *frame,
@@ -30,7 +11,7 @@ void KILN_SIMD_NAME(kiln_volume_lamp_reach)(const struct kiln_volume_lamp *lamp,
 {
     const struct kiln_draw_light *light = lamp->light;
     for (int first = 0; first < VOLUME_PLACES; first += LANES) {
-        const struct vf3 at = places_of(frame, brick, first);
+        const struct vf3 at = volume_places_of(frame, brick, first);
         const vi active = vi_all(-1);
         const struct vf3 towards = vf3_normalize(vf3_towards(light->position_radius2, at));
         const struct ray_point point = {.at = at, .normal = towards, .active = active};

@@ -17,6 +17,9 @@
 #define VOLUME_THRICE      0.07f
 #define VOLUME_THRICE_DIMS 0.16f
 
+/* How much less than straight light that of the sky is dimmed, most of which is scattered. */
+#define VOLUME_SKY_DIMS 0.5f
+
 enum {
     VOLUME_SKY_WAYS = 5,     /* directions of the sky */
     VOLUME_SLICE_MARGIN = 16 /* floats of zeros before and behind the rows of a slice */

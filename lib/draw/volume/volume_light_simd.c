@@ -75,7 +75,7 @@ static void sweep(const struct kiln_volume_sweep *s, int32_t slice, int32_t row)
                 write_sun(to, s->drawn[0], depth);
             EIGHT_EACH(k)
             if (to && !s->sun)
-                sky.part[k] += (1.0f / VOLUME_SKY_WAYS) * vf_exp(-0.5f * depth.part[k]);
+                sky.part[k] += (1.0f / VOLUME_SKY_WAYS) * vf_exp(-VOLUME_SKY_DIMS * depth.part[k]);
         }
         if (to && !s->sun)
             store_lanes(to + VOLUME_RED, s->drawn[0], sky);
