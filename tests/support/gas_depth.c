@@ -252,9 +252,8 @@ void gas_depth_check(struct gas_depth *f)
                  least = half ? 1.0 / 16.0 : 1e-3;
     const double color = gas_depth_difference(found.color, expected.color, true, least);
     const double glow = gas_depth_difference(found.glow, expected.glow, false, least);
-    const bool lists = f->by_fragment && f->raster.technique == KILN_RASTER_CPU;
     if (color > most)
         fail_msg("the light of a pixel is off by %.4f of it", color);
-    if (!lists && glow > most) /* the host's lists of fragments have no glow of gas */
+    if (glow > most)
         fail_msg("the glow of a pixel is off by %.4f of it", glow);
 }

@@ -20,7 +20,8 @@ struct kiln_fragments {
     const struct kiln_packet_code *code;
     struct kiln_tile *scratch; /* some rows of the tile, with one sprite at a time */
     struct kiln_packets packets;
-    size_t room; /* greatest number of packets */
+    size_t room; /* greatest number of packets: all, and in the tile that is being drawn */
+    size_t tile_room;
     /* numbers of packets, list by list, and the end of the list of each vector of pixels */
     uint32_t *lists, list_ends[PIXELS_AT_A_TIME / LEAST_LANES];
 };
@@ -41,8 +42,6 @@ struct kiln_fragments *kiln_fragments_create(enum kiln_simd simd)
     f->lists = malloc(f->room * sizeof *f->lists);
     if (!f->scratch || !f->packets.packets || !f->packets.places || !f->packets.keys || !f->lists)
         kiln_fragments_destroy(&f);
-    else
-        memset(f->packets.packets, 0, f->code->size);
     return f;
 }
 
@@ -91,7 +90,7 @@ static void begin_rows(struct kiln_fragments *f, const struct kiln_tile *tile, i
            sizeof *tile - offsetof(struct kiln_tile, x));
     scratch->y = tile->y + y;
     scratch->height = rows;
-    scratch->glow = KILN_TILE_GLOW_NONE;
+    scratch->glow = f->packets.glow ? KILN_TILE_GLOW_WEIGHED : KILN_TILE_GLOW_NONE;
     for (int row = 0; row < rows; row++) {
         memset(scratch->pixels[row], 0, KILN_TILE_DEPTH * sizeof *scratch->pixels[row]);
         memcpy(scratch->pixels[row][KILN_TILE_DEPTH], tile->pixels[y + row][KILN_TILE_DEPTH],
@@ -141,8 +140,8 @@ static void drop_nearer(struct kiln_fragments *f)
     for (size_t i = 1; i < count; i++) {
         if (keys[i] >= p->end_key)
             continue;
-        memcpy((char *)p->packets + p->count * f->code->size,
-               (const char *)p->packets + i * f->code->size, f->code->size);
+        memcpy((char *)p->packets + p->count * p->stride, (const char *)p->packets + i * p->stride,
+               p->stride);
         p->places[p->count++] = p->places[i];
     }
 }
@@ -161,9 +160,9 @@ static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct 
         if (box.y_from >= box.y_to)
             continue;
         const size_t most = f->packets.count + most_packets(f, &box);
-        if (most > f->room && rows > 1)
+        if (most > f->tile_room && rows > 1)
             return false;
-        if (most > f->room)
+        if (most > f->tile_room)
             drop_nearer(f);
         draw(f->scratch, sprites, cells, &list[i], 1);
         f->code->add(&f->packets, f->scratch, &box, s, &sprites.extras[list[i]], (uint32_t)i);
@@ -213,6 +212,10 @@ void kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
     struct kiln_packets *p = &f->packets;
     int rows = ROWS_AT_A_TIME;
     p->first_key = 0;
+    p->glow = tile->gas && tile->glow == KILN_TILE_GLOW_WEIGHED;
+    p->stride = p->glow ? f->code->glow_size : f->code->size;
+    memset(p->packets, 0, p->stride); /* number 0, where the tile before may have had number 1 */
+    f->tile_room = f->room * f->code->size / p->stride;
     for (int y = 0; y < tile->height;) {
         rows = rows < tile->height - y ? rows : tile->height - y;
         p->end_key = KILN_PACKET_KEYS_END;

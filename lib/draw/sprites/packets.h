@@ -18,7 +18,9 @@ enum {
 
 /* Holds packets in the order of their sprites. */
 struct kiln_packets {
-    void *packets;               /* the packet number 0 has no fragments */
+    void *packets; /* the packet number 0 has no fragments */
+    size_t stride; /* bytes from one to the next: kiln_packet_code.size, or with `glow` glow_size */
+    bool glow;     /* a packet has the glow of each pixel, instead of bloom weights */
     uint16_t *places;            /* by packet: number of its vector of pixels in the scratch tile */
     double *keys;                /* room for the keys of all packets */
     size_t count;                /* packets, with number 0 */
@@ -45,8 +47,8 @@ typedef void kiln_packets_blend(const struct kiln_packets *packets, const uint32
                                 size_t count, float (*planes)[KILN_TILE_PITCH], int x);
 
 struct kiln_packet_code {
-    int lanes;   /* pixels of a packet */
-    size_t size; /* of a packet, bytes */
+    int lanes;              /* pixels of a packet */
+    size_t size, glow_size; /* of a packet, bytes: without and with the glow of each pixel */
     kiln_packets_add *add;
     kiln_packets_least_key *least_key;
     kiln_packets_blend *blend;

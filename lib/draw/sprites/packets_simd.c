@@ -1,7 +1,9 @@
-/* This file makes packets of fragments. It sorts and blends all packets of a vector of pixels
- * together, so that no step depends on a comparison that the processor cannot predict. A pixel has
- * a key for each sheet of each packet. The key of a fragment that the pixel lacks comes last and
- * names the empty packet, whose fragments change no colour. */
+/* This file makes packets of fragments. The glow of a fragment is its colour times the bloom
+ * weights of its sprite, but where there is gas, which glows before it: then a packet has the glow
+ * itself. It sorts and blends all packets of a vector of pixels together, so that no step depends
+ * on a comparison that the processor cannot predict. A pixel has a key for each sheet of each
+ * packet. The key of a fragment that the pixel lacks comes last and names the empty packet, whose
+ * fragments change no colour. */
 #include "base/lane_math.h"
 #include "base/transpose.h"
 #include "draw/sprites/packet_sort.h"
@@ -19,7 +21,16 @@ struct packet {
     bool glows, thick; /* its bloom is not 0; some pixels have two sheets */
 };
 
-enum { PACKET_FLOATS = sizeof(struct packet) / sizeof(float) };
+/* A packet that has the glow of each pixel of a sheet. */
+struct glowing_packet {
+    struct packet packet;
+    _Alignas(4 * LANES) float glow[LANES][4];
+};
+
+SIMD struct packet *packet_of(const struct kiln_packets *packets, size_t number)
+{
+    return (struct packet *)(void *)((char *)packets->packets + number * packets->stride);
+}
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
@@ -65,21 +76,32 @@ SIMD vi put_depths(struct packet *packet, const struct kiln_sprite *s,
     return thick;
 }
 
-/* Sets the colours. thick: pixels with two sheets, which share them. */
-SIMD void put_colors(struct packet *packet, const vf planes[4], vi thick)
+/* Stores four numbers of each lane. */
+SIMD void put_fours(float to[LANES][4], vf a, vf b, vf c, vf d)
 {
-    vf rgb[3] = {planes[0], planes[1], planes[2]}, alpha = planes[3];
+    const struct columns fours = columns_transpose(a, b, c, d);
+    for (int k = 0; k < 4; k++) {
+        for (size_t part = 0; part < LANES / 4; part++)
+            memcpy(to[4 * part + (size_t)k], (const char *)&fours.c[k] + 16 * part, 16);
+    }
+}
+
+/* Sets the colours, and unless it is NULL the glow: rgb. thick: pixels with two sheets, which share
+ * them. */
+SIMD void put_colors(struct packet *packet, const vf planes[4], const vf *glow, vi thick)
+{
+    vf rgb[3] = {planes[0], planes[1], planes[2]}, alpha = planes[3], part = vf_all(1.0f);
     if (packet->thick) {
         const vf left = vf_max(1.0f - alpha, vf_all(0.0f));
         alpha = vf_select(thick, 1.0f - square_root(left), alpha);
+        part = vf_select(thick, 1.0f / (2.0f - alpha), part);
         for (int c = 0; c < 3; c++)
-            rgb[c] = vf_select(thick, rgb[c] * (1.0f / (2.0f - alpha)), rgb[c]);
+            rgb[c] = vf_select(thick, rgb[c] * part, rgb[c]);
     }
-    const struct columns fours = columns_transpose(rgb[0], rgb[1], rgb[2], alpha);
-    for (int k = 0; k < 4; k++) {
-        for (size_t part = 0; part < LANES / 4; part++)
-            memcpy(packet->colors[4 * part + (size_t)k], (const char *)&fours.c[k] + 16 * part, 16);
-    }
+    put_fours(packet->colors, rgb[0], rgb[1], rgb[2], alpha);
+    if (glow)
+        put_fours(((struct glowing_packet *)(void *)packet)->glow, glow[0] * part, glow[1] * part,
+                  glow[2] * part, vf_all(0.0f));
 }
 
 /* Takes the colours of the pixels from x on out of the scratch tile. end: the end of the sprite's
@@ -94,6 +116,16 @@ SIMD vi take_pixels(float (*from)[KILN_TILE_PITCH], int x, int end, vf planes[4]
         vf_store(&from[KILN_TILE_RED + c][x], vf_all(0.0f));
     }
     return (bits & 0x7fffffff) != 0;
+}
+
+/* Takes the glow of pixels out of the scratch tile, as take_pixels takes their colours. */
+SIMD void take_glow(float (*from)[KILN_TILE_PITCH], int x, int end, vf glow[3])
+{
+    const vi inside = vi_count() < end - x;
+    for (int c = 0; c < 3; c++) {
+        glow[c] = vf_where(inside, vf_load(&from[KILN_TILE_GLOW_RED + c][x]));
+        vf_store(&from[KILN_TILE_GLOW_RED + c][x], vf_all(0.0f));
+    }
 }
 
 /* Returns which sheets' keys are gathered now. */
@@ -117,15 +149,17 @@ static void add(struct kiln_packets *packets, struct kiln_tile *scratch,
                 const struct kiln_packet_box *box, const struct kiln_sprite *s,
                 const struct kiln_sprite_extra *extra, uint32_t order)
 {
-    struct packet *to = (struct packet *)packets->packets + packets->count;
+    struct packet *to = packet_of(packets, packets->count);
     const bool all = gathers_all(packets);
     const bool glows = s->bloom[0] != 0.0f || s->bloom[1] != 0.0f || s->bloom[2] != 0.0f;
     const int drawn_to = box->x_to + UNIT - 1; /* the last unit of a row may reach beyond the box */
     const int end = drawn_to < KILN_TILE_WIDTH ? drawn_to : KILN_TILE_WIDTH;
     for (int y = box->y_from; y < box->y_to; y++) {
         for (int x = box->x_from / LANES * LANES; x < end; x += LANES) {
-            vf planes[4];
+            vf planes[4], glow[3];
             const vi drawn = take_pixels(scratch->pixels[y], x, box->x_to, planes);
+            if (packets->glow)
+                take_glow(scratch->pixels[y], x, box->x_to, glow);
             if (!any(drawn))
                 continue;
             const vi thick = put_depths(to, s, extra, (float)(scratch->x + x) + 0.5f,
@@ -133,19 +167,19 @@ static void add(struct kiln_packets *packets, struct kiln_tile *scratch,
             to->order = order;
             if (!all && !any(gathered(packets, to, 0) | gathered(packets, to, 1)))
                 continue;
-            put_colors(to, planes, thick);
+            put_colors(to, planes, packets->glow ? glow : NULL, thick);
             memcpy(to->bloom, s->bloom, sizeof s->bloom);
             to->bloom[3] = 0.0f;
             to->glows = glows;
             packets->places[packets->count++] = (uint16_t)((y * KILN_TILE_WIDTH + x) / LANES);
-            to++;
+            to = packet_of(packets, packets->count);
         }
     }
 }
 
 static uint64_t least_key(const struct kiln_packets *packets, size_t number)
 {
-    const struct packet *packet = (const struct packet *)packets->packets + number;
+    const struct packet *packet = packet_of(packets, number);
     uint64_t least = KILN_PACKET_KEYS_END;
     for (int i = 0; i < 2 * LANES; i++) {
         const uint64_t key =
@@ -177,19 +211,20 @@ SIMD size_t sort_keys(struct key_rows *rows, const struct kiln_packets *packets,
                       const uint32_t *list, size_t count)
 {
     const bool all = gathers_all(packets);
+    const int32_t floats = (int32_t)(packets->stride / sizeof(float));
     const size_t room =
         (2 * count + KILN_PACKET_SORT_BLOCK - 1) / KILN_PACKET_SORT_BLOCK * KILN_PACKET_SORT_BLOCK;
     *rows = (struct key_rows){.half = {(keys *)packets->keys, (keys *)packets->keys + room}};
     vi counts = {0};
     for (size_t i = 0; i < count; i++) {
-        const struct packet *packet = (const struct packet *)packets->packets + list[i];
+        const struct packet *packet = packet_of(packets, list[i]);
         for (int sheet = 0; sheet < 1 + packet->thick; sheet++) {
             vi words = packet->depths[sheet], present = words < ABSENT;
             if (!all) {
                 present &= gathered(packets, packet, sheet);
                 words = vi_select(present, words, vi_all(ABSENT));
             }
-            put_row(rows, words, present & (int32_t)(list[i] * PACKET_FLOATS));
+            put_row(rows, words, present & ((int32_t)list[i] * floats));
             counts -= present;
         }
     }
@@ -226,20 +261,26 @@ SIMD vf load_fours(const float *from, const offset_in_key *at, size_t step)
 #endif
 }
 
+/* Says what of the glow of fragments is blended. */
+enum glow_of { GLOW_NONE, GLOW_WEIGHTS, GLOW_PIXELS };
+
 /* Blends sorted fragments over colours and, if there are any, their glow over the glow. The lanes
  * are those of columns_transpose. */
 SIMD void blend_rows(const struct key_rows *rows, size_t count, const float *packets,
-                     struct columns *color, struct columns *glow, bool glows)
+                     struct columns *color, struct columns *glow, enum glow_of glow_of)
 {
     const size_t bloom = offsetof(struct packet, bloom) / sizeof(float);
+    const size_t pixels = offsetof(struct glowing_packet, glow) / sizeof(float);
     for (size_t i = 0; i < count; i++) {
         for (size_t k = 0; k < 4; k++) {
             const offset_in_key *at = (const offset_in_key *)&rows->half[k / 2][i] + 2 * (k % 2);
             const vf drawn = load_fours(packets + 4 * k, at, 16);
             const vf passed = 1.0f - VF_PICK(drawn, drawn, 3, 3, 3, 3);
             color->c[k] = drawn + color->c[k] * passed;
-            if (glows)
+            if (glow_of == GLOW_WEIGHTS)
                 glow->c[k] = drawn * load_fours(packets + bloom, at, 0) + glow->c[k] * passed;
+            if (glow_of == GLOW_PIXELS)
+                glow->c[k] = load_fours(packets + pixels + 4 * k, at, 16) + glow->c[k] * passed;
         }
     }
 }
@@ -267,22 +308,25 @@ static void blend(const struct kiln_packets *packets, const uint32_t *list, size
     const size_t most = sort_keys(&rows, packets, list, count);
     struct columns color = load_planes(planes, KILN_TILE_RED, 4, x);
     struct columns glow = load_planes(planes, KILN_TILE_GLOW_RED, 3, x);
-    bool glows =
-        any((glow.c[0] != 0.0f) | (glow.c[1] != 0.0f) | (glow.c[2] != 0.0f) | (glow.c[3] != 0.0f));
+    bool glows = packets->glow || any((glow.c[0] != 0.0f) | (glow.c[1] != 0.0f) |
+                                      (glow.c[2] != 0.0f) | (glow.c[3] != 0.0f));
     for (size_t i = 0; i < count && !glows; i++)
-        glows = ((const struct packet *)packets->packets)[list[i]].glows;
-    if (glows) {
-        blend_rows(&rows, most, packets->packets, &color, &glow, true);
+        glows = packet_of(packets, list[i])->glows;
+    if (packets->glow)
+        blend_rows(&rows, most, packets->packets, &color, &glow, GLOW_PIXELS);
+    else if (glows)
+        blend_rows(&rows, most, packets->packets, &color, &glow, GLOW_WEIGHTS);
+    else
+        blend_rows(&rows, most, packets->packets, &color, &glow, GLOW_NONE);
+    if (glows)
         store_planes(planes, KILN_TILE_GLOW_RED, 3, x, &glow);
-    } else {
-        blend_rows(&rows, most, packets->packets, &color, &glow, false);
-    }
     store_planes(planes, KILN_TILE_RED, 4, x, &color);
 }
 
 const struct kiln_packet_code KILN_SIMD_NAME(kiln_packet_code) = {
     .lanes = LANES,
     .size = sizeof(struct packet),
+    .glow_size = sizeof(struct glowing_packet),
     .add = add,
     .least_key = least_key,
     .blend = blend,
