@@ -405,9 +405,11 @@ PUBLIC_TABLE(kiln_options_gas) = {
     BOOLEAN(MOTION, "collide", collide, "true",
             "Gas flows around the objects and the floor that particles collide with."),
     GROUP(MOTION, "pressure", pressure, "How exactly the pressure is found."),
-    INTEGER(OF_DETAIL, "detail", detail, 1, 4, "1",
-            "Factor on the drawn resolution, 1, 2 or 4: finer noise, which moves with the gas, is "
-            "drawn between the cells. It costs time of drawing, and memory, but no steps."),
+    INTEGER(
+        OF_DETAIL, "detail", detail, 1, 4, "1",
+        "Factor on the drawn resolution, 1, 2 or 4: edges are drawn steeper than the cells have "
+        "them, and torn by finer noise, which moves with the gas. It costs time of drawing, "
+        "and memory, but no steps."),
     GROUP_AT(LOOK, "look", look, gas_look, "What the gas looks like."),
     END,
 };

@@ -4,11 +4,13 @@
 #ifndef KILN_SHARED_MARCH_LAYOUT_H
 #define KILN_SHARED_MARCH_LAYOUT_H
 
+#include "shared/gas_detail.h"
 #include "shared/gas_profile.h"
 
 /* Storage blocks. */
-#define MARCH_BIND_BLOCKS   0 /* cells of blocks, two vec4 each: volume_field.h */
-#define MARCH_BIND_WAYS     1 /* where the gas came from, as the blocks */
+#define MARCH_BIND_BLOCKS 0 /* cells of blocks, two vec4 each: volume_field.h */
+/* Where the gas came from, as the blocks; then the edges of all cells, a vec4 each. */
+#define MARCH_BIND_FINER    1
 #define MARCH_BIND_TINTS    2 /* what coloured smoke scatters, a vec4 a cell */
 #define MARCH_BIND_PLACES   3 /* the block of each brick; then the tiles, four words each */
 #define MARCH_BIND_PLANES   4 /* smoke, flame and glow of each pixel, a vec4 each */
@@ -49,7 +51,8 @@ struct kiln_march {
     float4 world[3]; /* rows: from directions in the window to those in the world */
     uint4 cells;     /* of the window; w: what the march does: MARCH_* */
     uint4 bricks;    /* of the window; w: width of the picture, px */
-    uint4 picture;   /* height; first word of tiles, and of the memory of profiles; unused */
+    uint4 picture; /* height; first word of tiles, and of the memory of profiles; vec4s before edges
+                    */
     float4 colors[MARCH_FLAME_COLORS + 1];
 };
 

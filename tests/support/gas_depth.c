@@ -247,7 +247,7 @@ void gas_depth_check(struct gas_depth *f)
     gas_depth_draw(f, false, &found);
     const bool half = f->gas.scene->gas[0].look.resolution == KILN_GAS_HALF;
     const double most = half       ? 1.0 / 24.0
-                        : f->in_gl ? 1.0 / 48.0
+                        : f->in_gl ? 1.0 / 40.0
                                    : 1.0 / 64.0,
                  least = half ? 1.0 / 16.0 : 1e-3;
     const double color = gas_depth_difference(found.color, expected.color, true, least);

@@ -9,6 +9,7 @@
 
 #include "asset/atlas/blackbody.h"
 #include "draw/light/flame_colors.h"
+#include "draw/volume/volume_field.h"
 #include "support/cmocka.h"
 #include "support/gas_fixture.h"
 #include "support/gas_view.h"
@@ -419,6 +420,44 @@ static void threads_and_vectors_make_no_difference(void **state)
     gas_view_close(&f);
 }
 
+/* A cell in the last corner of a brick is spread to the first cells of seven bricks without gas,
+ * which are drawn for it. Raw cells would show thin sheets of gas as columns. */
+static void cells_spread_to_their_neighbours(void **state)
+{
+    (void)state;
+    struct kiln_gas gas = {0};
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(1);
+    struct kiln_volume_field field = {.gas = NULL};
+    const struct kiln_volume_seen seen = {.least_smoke = 1e-6f, .least_flame = 1e-6f};
+    gas_fixture_full(&gas, 24, 0.1f, 0.0f, 0.0f, 0.0f);
+    float *now = gas.brick[kiln_gas_brick_index(&gas, 0, 0, 0)].now;
+    float *cell = now + (ptrdiff_t)(GAS_BRICK_CELLS - 1) * GAS_CARRIED;
+    cell[GAS_SMOKE] = 1.0f;
+    cell[GAS_FLAME] = 0.5f;
+    cell[GAS_TEMPERATURE] = 0.75f;
+    assert_true(kiln_volume_field_fill(&field, &gas, &seen, threads, &error));
+    double sum = 0.0;
+    for (int32_t k = 0; k < 27; k++) {
+        const int32_t x = 6 + k % 3, y = 6 + k / 3 % 3, z = 6 + k / 9;
+        const int32_t block =
+            field.block_of[kiln_gas_brick_index(&gas, x / GAS_BRICK, y / GAS_BRICK, z / GAS_BRICK)];
+        assert_true(block >= 0);
+        const float *drawn = kiln_volume_cell(kiln_volume_block(&field, (uint32_t)block),
+                                              x % GAS_BRICK, y % GAS_BRICK, z % GAS_BRICK);
+        const double weight =
+            (x == 7 ? 0.625 : 0.1875) * (y == 7 ? 0.625 : 0.1875) * (z == 7 ? 0.625 : 0.1875);
+        assert_near((double)drawn[VOLUME_SMOKE], weight, 1e-6);
+        assert_near((double)drawn[VOLUME_FLAME], 0.5 * weight, 1e-6);
+        assert_near((double)drawn[VOLUME_TEMPERATURE], 0.75, 1e-6);
+        sum += (double)drawn[VOLUME_SMOKE];
+    }
+    assert_near(sum, 1.0, 1e-6);
+    kiln_volume_field_finish(&field);
+    kiln_gas_finish(&gas);
+    kiln_threads_destroy(&threads);
+}
+
 static void a_scene_without_gas_takes_no_memory(void **state)
 {
     (void)state;
@@ -469,6 +508,7 @@ int main(void)
         cmocka_unit_test(a_domain_in_a_node_lies_there),
         cmocka_unit_test(the_nearer_domain_hides_the_other),
         cmocka_unit_test(threads_and_vectors_make_no_difference),
+        cmocka_unit_test(cells_spread_to_their_neighbours),
         cmocka_unit_test(a_scene_without_gas_takes_no_memory),
         cmocka_unit_test(no_gas_leaves_pictures_as_they_are),
     };

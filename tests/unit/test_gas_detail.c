@@ -1,5 +1,6 @@
-/* The detail of drawn gas: noise would swim through the gas, be seen when it begins anew, or change
- * the amount of gas. */
+/* The detail of drawn gas: noise would swim through the gas, be seen when it begins anew, become
+ * hair where gas is sheared, or change the amount of gas; edges would not become steeper, or veils
+ * of thin smoke would be lost. */
 #include <math.h>
 #include <string.h>
 
@@ -42,6 +43,39 @@ static void set_ways(struct kiln_gas *gas, uint32_t group, float x)
     for (size_t i = 0; i < 512; i++)
         for (size_t k = 0; k < GAS_BRICK_CELLS; k++)
             gas->brick[i].extras[(group * GAS_BRICK_CELLS + k) * GAS_CARRIED] = x;
+}
+
+/* Gives a way or an amount of smoke to the gas at a place, cells from the window's first one. */
+typedef float3 way_at(float x, float y, float z);
+typedef float smoke_at(float x);
+
+static float3 place_of(size_t brick, size_t k)
+{
+    return (float3){(float)(brick % 8 * GAS_BRICK + k % GAS_BRICK),
+                    (float)(brick / 8 % 8 * GAS_BRICK + k / GAS_BRICK % GAS_BRICK),
+                    (float)(brick / 64 * GAS_BRICK + k / GAS_BRICK / GAS_BRICK)};
+}
+
+/* Sets the ways of both groups, which are given in cells. */
+static void set_ways_at(struct kiln_gas *gas, way_at *way_of)
+{
+    for (size_t i = 0; i < 512; i++)
+        for (size_t k = 0; k < GAS_BRICK_CELLS; k++) {
+            const float3 at = place_of(i, k), way = way_of(at.x, at.y, at.z);
+            for (size_t group = 0; group < 2; group++) {
+                float *to = gas->brick[i].extras + (group * GAS_BRICK_CELLS + k) * GAS_CARRIED;
+                to[0] = way.x * gas->shape.cell;
+                to[1] = way.y * gas->shape.cell;
+                to[2] = way.z * gas->shape.cell;
+            }
+        }
+}
+
+static void set_smoke(struct kiln_gas *gas, smoke_at *smoke_of, float factor)
+{
+    for (size_t i = 0; i < 512; i++)
+        for (size_t k = 0; k < GAS_BRICK_CELLS; k++)
+            gas->brick[i].now[k * GAS_CARRIED + GAS_SMOKE] = factor * smoke_of(place_of(i, k).x);
 }
 
 struct spread {
@@ -132,6 +166,81 @@ static void noise_moves_with_the_gas(void **state)
     gas_view_close(&f);
 }
 
+static float3 turned(float x, float y, float z)
+{
+    return (float3){-y - x, x - y, 0.0f * z};
+}
+
+static float3 sheared(float x, float y, float z)
+{
+    return (float3){4.0f * y, 0.0f * x, 0.0f * z};
+}
+
+static void sheared_gas_has_no_noise(void **state)
+{
+    (void)state;
+    struct gas_view f;
+    gas_view_open(&f);
+    struct kiln_gas *gas = add_detailed(&f, 2);
+    set_ways_at(gas, turned);
+    struct spread found = depths_of(gas_view_draw(&f));
+    assert_near(found.deviation / found.mean, 0.1, 0.05);
+    set_ways_at(gas, sheared);
+    found = depths_of(gas_view_draw(&f));
+    assert_near(found.deviation / found.mean, 0.0, 0.01);
+    assert_near(found.mean / 0.4, 1.0, 0.01);
+    gas_view_close(&f);
+}
+
+/* Where one group is sheared, the other one takes its part. Both are seen alike at step 6. */
+static void the_other_group_takes_the_part_of_a_sheared_one(void **state)
+{
+    (void)state;
+    for (uint32_t group = 0; group < 2; group++) {
+        struct gas_view f;
+        gas_view_open(&f);
+        struct kiln_gas *gas = add_detailed(&f, 2);
+        set_step(&f, 6);
+        set_ways_at(gas, sheared);
+        set_ways(gas, group, 0.0f);
+        const struct spread found = depths_of(gas_view_draw(&f));
+        assert_near(found.deviation / found.mean, 0.1, 0.05);
+        gas_view_close(&f);
+    }
+}
+
+/* The amount grows from cell 30 on for 8 cells. */
+static float ramp(float x)
+{
+    return x < 30.0f ? 0.0f : x < 38.0f ? (x - 30.0f) / 8.0f : 1.0f;
+}
+
+/* Pixels 31, 32, and 33 of a row see cells 0.2, 1.5, and 2.8 behind the edge. Sheared ways turn off
+ * the noise. */
+static void edges_are_as_steep_in_thin_smoke_as_in_dense_smoke(void **state)
+{
+    (void)state;
+    enum { ROW = SIZE * (SIZE / 2) };
+    for (float amount = 1.0f; amount > 0.2f; amount *= 0.3f) {
+        double depth[2][3];
+        for (uint32_t detail = 1; detail <= 2; detail++) {
+            struct gas_view f;
+            gas_view_open(&f);
+            struct kiln_gas *gas = add_detailed(&f, detail);
+            f.scene->gas[0].look.extinction = gas_view_value(5.0f);
+            set_ways_at(gas, sheared);
+            set_smoke(gas, ramp, amount);
+            const float *picture = gas_view_draw(&f);
+            for (int i = 0; i < 3; i++)
+                depth[detail - 1][i] = -log(1.0 - (double)picture[4 * (ROW + 31 + i) + 3]);
+            gas_view_close(&f);
+        }
+        assert_near(depth[1][0] / depth[0][0], 0.0, 0.01);
+        assert_near(depth[1][1] / depth[0][1], 0.1, 0.1);
+        assert_near(depth[1][2] / depth[0][2], 1.0, 0.02);
+    }
+}
+
 static void detail_has_the_same_bits(void **state)
 {
     (void)state;
@@ -153,6 +262,9 @@ int main(void)
         cmocka_unit_test(detail_changes_gas_but_not_its_amount),
         cmocka_unit_test(ways_that_begin_anew_are_not_seen),
         cmocka_unit_test(noise_moves_with_the_gas),
+        cmocka_unit_test(sheared_gas_has_no_noise),
+        cmocka_unit_test(the_other_group_takes_the_part_of_a_sheared_one),
+        cmocka_unit_test(edges_are_as_steep_in_thin_smoke_as_in_dense_smoke),
         cmocka_unit_test(detail_has_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
-/* This file copies gas from the bricks of a domain's state to the blocks that are drawn. A brick
- * has a block if gas is seen in it, or in one of its upper neighbours, since samples between their
- * cells read the block of the lower one. */
+/* This file finds the bricks of a domain that are drawn, and keeps their blocks. A brick has a
+ * block if gas is seen in it; or in one of its upper neighbours, since samples between their cells
+ * read the block of the lower one; or in the last cells of a lower neighbour, whose gas the filter
+ * of volume_copy.c spreads to the brick. */
 #include "draw/volume/volume_field.h"
 
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/pages.h"
+#include "draw/volume/volume_copy.h"
 
 static size_t count_of(struct kiln_gas_place bricks)
 {
@@ -16,8 +18,8 @@ static size_t count_of(struct kiln_gas_place bricks)
 
 uint64_t kiln_volume_field_bytes(const struct kiln_gas_shape *shape, uint64_t bricks)
 {
-    const uint64_t blocks = shape->detailed ? 2 : 1;
-    const uint64_t floats = blocks * VOLUME_BLOCK + (shape->colored ? VOLUME_TINTS : 0);
+    const uint64_t finer = shape->detailed ? VOLUME_BLOCK + VOLUME_FOURS : 0;
+    const uint64_t floats = VOLUME_BLOCK + finer + (shape->colored ? VOLUME_FOURS : 0);
     return bricks * (floats * sizeof(float) + 2 * sizeof(int32_t) + 1);
 }
 
@@ -29,6 +31,7 @@ void kiln_volume_field_finish(struct kiln_volume_field *field)
     free(field->blocks);
     free(field->tints);
     free(field->ways);
+    free(field->edges);
     *field = (struct kiln_volume_field){.gas = NULL};
 }
 
@@ -45,29 +48,50 @@ struct scan_job {
     const struct kiln_volume_seen *seen;
 };
 
+/* Where in a brick gas is seen. */
+enum { SEEN = 1, SEEN_LAST_X = 2, SEEN_LAST_Y = 4, SEEN_LAST_Z = 8 };
+
 static void scan_bricks(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct scan_job *job = context;
+    const int last = GAS_BRICK - 1;
     for (size_t i = begin; i < end; i++) {
         const float *cells = job->field->gas->brick[i].now;
-        bool seen = false;
-        for (int k = 0; k < GAS_BRICK_CELLS && cells && !seen; k++)
-            seen = cells[k * GAS_CARRIED + GAS_SMOKE] > job->seen->least_smoke ||
-                   cells[k * GAS_CARRIED + GAS_FLAME] > job->seen->least_flame;
+        uint8_t seen = 0;
+        for (int k = 0; k < GAS_BRICK_CELLS && cells; k++) {
+            if (!(cells[k * GAS_CARRIED + GAS_SMOKE] > job->seen->least_smoke ||
+                  cells[k * GAS_CARRIED + GAS_FLAME] > job->seen->least_flame))
+                continue;
+            const int x = k % GAS_BRICK, y = k / GAS_BRICK % GAS_BRICK;
+            const int z = k / (GAS_BRICK * GAS_BRICK);
+            seen |= (uint8_t)(SEEN | (x == last ? SEEN_LAST_X : 0) | (y == last ? SEEN_LAST_Y : 0) |
+                              (z == last ? SEEN_LAST_Z : 0));
+        }
         job->field->seen[i] = seen;
     }
 }
 
-/* Returns whether gas is seen in a brick or one of its upper neighbours. */
-static bool is_drawn(const struct kiln_volume_field *field, struct kiln_gas_place at)
+/* Returns whether gas of a neighbour of a brick is drawn in its block. step: to the neighbour. */
+static bool reaches(const struct kiln_volume_field *field, struct kiln_gas_place brick,
+                    struct kiln_gas_place step)
 {
     const struct kiln_gas_place n = field->bricks;
-    for (int32_t z = at.z; z <= at.z + 1 && z < n.z; z++)
-        for (int32_t y = at.y; y <= at.y + 1 && y < n.y; y++)
-            for (int32_t x = at.x; x <= at.x + 1 && x < n.x; x++)
-                if (field->seen[kiln_gas_brick_index(field->gas, x, y, z)])
-                    return true;
+    const struct kiln_gas_place at = {brick.x + step.x, brick.y + step.y, brick.z + step.z};
+    if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= n.x || at.y >= n.y || at.z >= n.z)
+        return false;
+    const uint8_t seen = field->seen[kiln_gas_brick_index(field->gas, at.x, at.y, at.z)];
+    const uint8_t needed =
+        (uint8_t)(SEEN | (step.x < 0 ? SEEN_LAST_X : 0) | (step.y < 0 ? SEEN_LAST_Y : 0) |
+                  (step.z < 0 ? SEEN_LAST_Z : 0));
+    return (seen & needed) == needed;
+}
+
+static bool is_drawn(const struct kiln_volume_field *field, struct kiln_gas_place at)
+{
+    for (int32_t k = 0; k < 27; k++)
+        if (reaches(field, at, (struct kiln_gas_place){k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1}))
+            return true;
     return false;
 }
 
@@ -107,91 +131,15 @@ static bool make_block_room(struct kiln_volume_field *field, bool detail)
     free(field->brick_of);
     free(field->tints);
     free(field->ways);
-    field->tints = colored ? kiln_alloc_pages(room * VOLUME_TINTS * sizeof *field->tints) : NULL;
+    free(field->edges);
+    field->tints = colored ? kiln_alloc_pages(room * VOLUME_FOURS * sizeof *field->tints) : NULL;
     field->ways = detail ? kiln_alloc_pages(room * VOLUME_BLOCK * sizeof *field->ways) : NULL;
+    field->edges = detail ? kiln_alloc_pages(room * VOLUME_FOURS * sizeof *field->edges) : NULL;
     field->blocks = kiln_alloc_pages(room * VOLUME_BLOCK * sizeof *field->blocks);
     field->brick_of = malloc(room * sizeof *field->brick_of);
     field->capacity = (uint32_t)room;
     return field->blocks && field->brick_of && (field->tints || !colored) &&
-           (field->ways || !detail);
-}
-
-/* ---- blocks ---------------------------------------------------------------------------------- */
-
-/* Returns the cell of the window that a cell of a block shows; the last one beyond its end. */
-static int32_t cell_of(int32_t brick, int32_t cell, int32_t count)
-{
-    const int32_t at = brick * GAS_BRICK + cell;
-    return at < count ? at : count - 1;
-}
-
-/* Writes what the smoke of a cell scatters: its amount times its albedo. color: GAS_COLOR. */
-static void write_tint(const float *color, float smoke, const float albedo[3], float *tint)
-{
-    const float amount = color[3], part = amount < smoke ? amount : smoke;
-    tint[3] = 0.0f;
-    for (int c = 0; c < 3; c++)
-        tint[c] = amount > 1e-6f ? (smoke - part) * albedo[c] + part / amount * color[c]
-                                 : smoke * albedo[c];
-}
-
-/* The cells of a block that are being filled; NULL: not needed. */
-struct filled {
-    float *cell, *tint, *way;
-};
-
-/* Copies the gas of a cell of the window. */
-static void copy_cell(const struct scan_job *job, struct kiln_gas_place at, struct filled to)
-{
-    const struct kiln_gas *gas = job->field->gas;
-    const struct kiln_gas_brick *brick = &gas->brick[kiln_gas_brick_index(
-        gas, at.x / GAS_BRICK, at.y / GAS_BRICK, at.z / GAS_BRICK)];
-    const ptrdiff_t row = at.z % GAS_BRICK * GAS_BRICK + at.y % GAS_BRICK;
-    const ptrdiff_t in = (row * GAS_BRICK + at.x % GAS_BRICK) * GAS_CARRIED;
-    memset(to.cell, 0, VOLUME_CELL * sizeof *to.cell);
-    if (to.tint)
-        memset(to.tint, 0, VOLUME_TINT * sizeof *to.tint);
-    if (to.way)
-        memset(to.way, 0, VOLUME_CELL * sizeof *to.way);
-    if (!brick->now)
-        return;
-    const float *from = brick->now + in;
-    to.cell[VOLUME_SMOKE] = from[GAS_SMOKE];
-    to.cell[VOLUME_FLAME] = from[GAS_FLAME];
-    to.cell[VOLUME_TEMPERATURE] = from[GAS_TEMPERATURE];
-    const float *extras = brick->extras ? brick->extras + in : NULL;
-    const size_t group = (size_t)GAS_BRICK_CELLS * GAS_CARRIED;
-    if (to.tint)
-        write_tint(extras + kiln_gas_group(&gas->shape, GAS_COLOR) * group, from[GAS_SMOKE],
-                   job->seen->albedo, to.tint);
-    for (size_t i = 0; i < 2 && to.way; i++)
-        memcpy(to.way + i * GAS_CARRIED,
-               extras + (kiln_gas_group(&gas->shape, GAS_CAME_FROM) + i) * group,
-               GAS_CARRIED * sizeof *extras);
-}
-
-static void copy_gas(void *context, size_t begin, size_t end, uint32_t worker)
-{
-    (void)worker;
-    const struct scan_job *job = context;
-    const struct kiln_volume_field *field = job->field;
-    const bool colored = field->gas->shape.colored, detail = job->seen->detail;
-    for (size_t i = begin; i < end; i++) {
-        const struct kiln_gas_place b = kiln_volume_place(field, (uint32_t)i);
-        for (size_t k = 0; k < VOLUME_BLOCK / VOLUME_CELL; k++) {
-            const int32_t n = (int32_t)k;
-            const struct kiln_gas_place at = {
-                cell_of(b.x, n % VOLUME_EDGE, field->cells.x),
-                cell_of(b.y, n / VOLUME_EDGE % VOLUME_EDGE, field->cells.y),
-                cell_of(b.z, n / (VOLUME_EDGE * VOLUME_EDGE), field->cells.z)};
-            copy_cell(
-                job, at,
-                (struct filled){
-                    .cell = field->blocks + i * VOLUME_BLOCK + k * VOLUME_CELL,
-                    .tint = colored ? field->tints + i * VOLUME_TINTS + k * VOLUME_TINT : NULL,
-                    .way = detail ? field->ways + i * VOLUME_BLOCK + k * VOLUME_CELL : NULL});
-        }
-    }
+           ((field->ways && field->edges) || !detail);
 }
 
 bool kiln_volume_field_fill(struct kiln_volume_field *field, const struct kiln_gas *gas,
@@ -213,7 +161,7 @@ bool kiln_volume_field_fill(struct kiln_volume_field *field, const struct kiln_g
     for (size_t i = 0; i < bricks; i++)
         if (field->block_of[i] >= 0)
             field->brick_of[field->block_of[i]] = (int32_t)i;
-    kiln_threads_for(threads, field->count, 8, copy_gas, &job);
+    kiln_volume_copy(field, seen, threads);
     return true;
 }
 

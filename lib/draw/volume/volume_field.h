@@ -20,13 +20,23 @@ enum {
     VOLUME_CELL,
 };
 
+/* The floats of a cell that detailed gas is drawn finer by, beside its ways. */
+enum {
+    VOLUME_SMOKE_THICKNESS, /* amount of smoke by its slope, cells */
+    VOLUME_FLAME_THICKNESS,
+    VOLUME_CALM, /* 1: the ways of group 0 keep shapes; 0: they tear or shear them. Then group 1 */
+};
+
+/* No gas counts as thicker than this. */
+#define VOLUME_THICKEST 8.0f
+
 enum {
     VOLUME_EDGE = GAS_BRICK + 1, /* cells along an edge of a block */
     VOLUME_ROW = VOLUME_EDGE * VOLUME_CELL,
     VOLUME_PLANE = VOLUME_EDGE * VOLUME_ROW,
     VOLUME_BLOCK = VOLUME_EDGE * VOLUME_PLANE, /* floats of a block */
-    VOLUME_TINT = 4,                           /* floats of a cell's tint */
-    VOLUME_TINTS = VOLUME_BLOCK / VOLUME_CELL * VOLUME_TINT,
+    VOLUME_FOUR = 4,                           /* floats of a cell's tint, and of its edges */
+    VOLUME_FOURS = VOLUME_BLOCK / VOLUME_CELL * VOLUME_FOUR,
 };
 
 struct kiln_volume_field {
@@ -38,13 +48,14 @@ struct kiln_volume_field {
     int32_t *brick_of; /* of each block */
     float *blocks;
     float *ways;  /* of blocks of detailed gas: both groups of GAS_CAME_FROM, as `blocks` */
+    float *edges; /* of the same: VOLUME_FOUR floats a cell */
     float *tints; /* of blocks of coloured gas: what its smoke scatters, rgb and 0, a cell */
     uint32_t count, capacity; /* blocks */
 };
 
 /* Says what of gas is seen. */
 struct kiln_volume_seen {
-    bool detail;                    /* noise is drawn where the gas came from */
+    bool detail;                    /* it is drawn finer than its cells */
     float least_smoke, least_flame; /* amounts that count as nothing */
     float albedo[3];                /* of smoke without a colour of its own */
 };

@@ -15,7 +15,7 @@ static_assert(KILN_FLAME_COLORS == MARCH_FLAME_COLORS, "struct kiln_march");
 static_assert(sizeof(struct kiln_march) == (16 + MARCH_FLAME_COLORS + 1) * sizeof(float4),
               "std140");
 static_assert(sizeof(struct kiln_march) <= 16384, "what every GL allows a uniform block");
-static_assert(VOLUME_CELL == 8 && VOLUME_TINT == 4 && VOLUME_EDGE == 9 && GAS_BRICK == 8,
+static_assert(VOLUME_CELL == 8 && VOLUME_FOUR == 4 && VOLUME_EDGE == 9 && GAS_BRICK == 8,
               "volume_sample.glsl");
 static_assert(sizeof(struct kiln_volume_profile) == VOLUME_PROFILE_WORDS * sizeof(uint32_t) &&
                   VOLUME_PROFILE_UNIT == VOLUME_PROFILE_WORDS * sizeof(uint32_t) &&
@@ -24,7 +24,7 @@ static_assert(sizeof(struct kiln_volume_profile) == VOLUME_PROFILE_WORDS * sizeo
 
 /* The storage blocks: one for each binding point. */
 static const char *const LABELS[MARCH_BINDINGS] = {
-    [MARCH_BIND_BLOCKS] = "blocks of gas",     [MARCH_BIND_WAYS] = "ways of gas",
+    [MARCH_BIND_BLOCKS] = "blocks of gas",     [MARCH_BIND_FINER] = "detail of gas",
     [MARCH_BIND_TINTS] = "tints of gas",       [MARCH_BIND_PLACES] = "places of blocks",
     [MARCH_BIND_PLANES] = "planes of gas",     [MARCH_BIND_HALFWAY] = "half opaque gas",
     [MARCH_BIND_PROFILES] = "profiles of gas", [MARCH_BIND_TOTALS] = "work of the march",
@@ -231,7 +231,8 @@ static void describe(const struct kiln_volume_gl *gl, const struct kiln_volume_m
         to->world[i] = vector_of(m->world[i], 0.0f);
     to->cells = UINT4((uint)cells.x, (uint)cells.y, (uint)cells.z, actions_of(m));
     to->bricks = UINT4((uint)bricks.x, (uint)bricks.y, (uint)bricks.z, gl->width);
-    to->picture = UINT4(gl->height, (uint)brick_count, (uint)pixels_of(gl), 0);
+    to->picture = UINT4(gl->height, (uint)brick_count, (uint)pixels_of(gl),
+                        (uint)(f->count * (VOLUME_BLOCK / 4)));
     memcpy(to->colors, m->colors->rgb, sizeof to->colors);
 }
 
@@ -251,15 +252,28 @@ static bool send_uniforms(struct kiln_volume_gl *gl, const struct kiln_volume_ma
     return backdrop != 0;
 }
 
+/* Sends what detailed gas is drawn finer by: ways, then edges. */
+static bool send_finer(struct kiln_volume_gl *gl, const struct kiln_volume_field *f,
+                       struct kiln_error *error)
+{
+    const size_t ways = (size_t)f->count * VOLUME_BLOCK * sizeof(float);
+    const size_t edges = (size_t)f->count * VOLUME_FOURS * sizeof(float);
+    if (!make_room(gl, MARCH_BIND_FINER, ways + edges + 16, error))
+        return false;
+    send(gl, MARCH_BIND_FINER, 0, f->ways, ways);
+    send(gl, MARCH_BIND_FINER, ways, f->edges, edges);
+    return true;
+}
+
 /* Sends the blocks of a field. */
 static bool send_field(struct kiln_volume_gl *gl, const struct kiln_volume_march *m,
                        struct kiln_error *error)
 {
     const struct kiln_volume_field *f = m->field;
     const bool detail = m->octaves > 0 && f->gas->shape.detailed, colored = f->gas->shape.colored;
-    const size_t floats = (size_t)f->count * VOLUME_BLOCK, tints = (size_t)f->count * VOLUME_TINTS;
+    const size_t floats = (size_t)f->count * VOLUME_BLOCK, tints = (size_t)f->count * VOLUME_FOURS;
     return upload(gl, MARCH_BIND_BLOCKS, f->blocks, floats * sizeof(float), error) &&
-           upload(gl, MARCH_BIND_WAYS, f->ways, detail ? floats * sizeof(float) : 0, error) &&
+           (detail ? send_finer(gl, f, error) : upload(gl, MARCH_BIND_FINER, NULL, 0, error)) &&
            upload(gl, MARCH_BIND_TINTS, f->tints, colored ? tints * sizeof(float) : 0, error);
 }
 

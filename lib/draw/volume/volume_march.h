@@ -16,11 +16,6 @@
 #define VOLUME_STEP      0.75f
 #define VOLUME_FINE_STEP 0.5f
 
-/* Octaves of noise that are drawn where gas came from, and the edge of the cells of the first one's
- * lattice, cells: about the smallest eddies that the gas itself has. */
-enum { VOLUME_MOST_OCTAVES = 2 };
-#define VOLUME_NOISE_CELL 3.0f
-
 /* The floats of a ray: what it sees of a domain. */
 enum {
     VOLUME_RAY_SMOKE,     /* light that smoke scatters: rgb, premultiplied */

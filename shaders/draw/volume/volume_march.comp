@@ -17,7 +17,7 @@ layout(std140, binding = MARCH_BIND_UNIFORMS) uniform march_block { kiln_march m
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
 layout(std430, binding = MARCH_BIND_BLOCKS) readonly buffer blocks_block { vec4 blocks[]; };
-layout(std430, binding = MARCH_BIND_WAYS) readonly buffer ways_block { vec4 ways[]; };
+layout(std430, binding = MARCH_BIND_FINER) readonly buffer finer_block { vec4 finer[]; };
 layout(std430, binding = MARCH_BIND_TINTS) readonly buffer tints_block { vec4 tints[]; };
 layout(std430, binding = MARCH_BIND_PLACES) readonly buffer places_block { uint places[]; };
 layout(std430, binding = MARCH_BIND_PLANES) buffer planes_block { vec4 planes[]; };

@@ -1,8 +1,7 @@
 /* Samples the blocks of a domain of gas for a step of a ray, and adds the step's light, as
  * lib/draw/volume/volume_march_simd.c does on the host. */
 
-/* As in volume_march_simd.c and volume_march.h. */
-const float DETAIL = 0.6, DETAIL_SEEN = 1.0 / 2048.0, NOISE_CELL = 3.0, HOTTEST = 1.25;
+const float HOTTEST = 1.25; /* as in flame_colors.h */
 
 /* A block in the array of cells: rows and planes have one cell more than a brick has. */
 const uint EDGE = 9u, PLANE = EDGE * EDGE, BLOCK = EDGE * PLANE;
@@ -65,30 +64,53 @@ gas_cell sample_gas(step_place s)
 }
 
 /* Returns the noise of a group of ways at a place in its lattice. */
-float noise_of(vec3 place, float weight)
+float noise_of_group(vec3 place)
 {
-    float sum = weight * noise_at(place);
+    float sum = noise_at(place);
     if (march.detail.z > 1.0)
-        sum += 0.6 * weight * noise_at(2.0 * place);
+        sum += GAS_OCTAVE * noise_at(2.0 * place);
     return sum;
 }
 
-/* Changes sampled gas by noise where it came from, if the step changes the ray enough for its noise
- * to be seen. */
+/* Returns the noise of gas by both groups of ways, and its mean square. calm: of the groups. */
+vec2 noise_of(step_place s, vec2 calm)
+{
+    vec3 place = s.at + march.lattice.xyz;
+    vec2 weights = march.detail.xy * calm;
+    float squares = dot(weights, weights);
+    float scale = 1.0 / sqrt(max(squares, 0.25)), noise = 0.0;
+    vec3 first = (place + march.lattice.w * INTERPOLATE(finer, s, 2u, 0u).xyz) / GAS_NOISE_CELL;
+    vec3 second = (place + march.lattice.w * INTERPOLATE(finer, s, 2u, 1u).xyz) / GAS_NOISE_CELL;
+    if (weights.x > 0.0)
+        noise += weights.x * scale * noise_of_group(first);
+    if (weights.y > 0.0)
+        noise += weights.y * scale * noise_of_group(second + GAS_NOISE_APART);
+    float octaves = march.detail.z > 1.0 ? GAS_TWO_OCTAVES : 1.0;
+    return vec2(noise, squares * scale * scale * octaves);
+}
+
+/* Returns the part of gas of a thickness that is drawn. edge: the thickness of which half is. */
+float part_at_edge(float thickness, float edge)
+{
+    return smoothstep(0.0, 1.0, (thickness - edge) / GAS_EDGE_WIDTH + 0.5);
+}
+
+/* Changes sampled gas by noise, and makes its edges steeper, if the step changes the ray enough for
+ * its noise to be seen. */
 void add_detail(ray r, step_place s, inout gas_cell g)
 {
     float amount = g.smoke * march.albedo.w + g.flame * (march.detail.w + march.to_sun.w);
-    if (r.clear * s.span * march.right.w * amount <= DETAIL_SEEN)
+    if (r.clear * s.span * march.right.w * amount <= GAS_DETAIL_SEEN)
         return;
-    vec3 place = s.at + march.lattice.xyz;
-    vec3 first = (place + march.lattice.w * INTERPOLATE(ways, s, 2u, 0u).xyz) / NOISE_CELL;
-    vec3 second = (place + march.lattice.w * INTERPOLATE(ways, s, 2u, 1u).xyz) / NOISE_CELL;
-    float sum = noise_of(first, march.detail.x) + noise_of(second + 511.5, march.detail.y);
-    float variance = march.detail.z > 1.0 ? 1.36 : 1.0;
-    float factor = exp(DETAIL * sum - 0.5 * DETAIL * DETAIL * variance);
-    g.smoke *= factor;
-    g.tint *= factor;
-    g.flame *= sqrt(factor);
+    vec4 edges = INTERPOLATE(finer, s, 1u, march.picture.w);
+    vec2 noise = noise_of(s, edges.zw);
+    float value = GAS_DETAIL * noise.x, variance = GAS_DETAIL * GAS_DETAIL * noise.y;
+    float smoke = exp(value - 0.5 * variance) *
+                  part_at_edge(edges.x + GAS_SMOKE_TORN * noise.x, GAS_SMOKE_EDGE);
+    g.smoke *= smoke;
+    g.tint *= smoke;
+    g.flame *= exp(0.5 * value - 0.125 * variance) *
+               part_at_edge(edges.y + GAS_FLAME_TORN * noise.x, GAS_FLAME_EDGE);
 }
 
 /* Returns the light of flames by their temperature. */
