@@ -21,7 +21,7 @@
 
 #define MARCH_BIND_UNIFORMS 0 /* a uniform block */
 #define MARCH_UNIT_DEPTH    0 /* texture of the scene's depths */
-#define MARCH_AT_TILES      0 /* location of the number of tiles */
+#define MARCH_AT_TILES      0 /* location of the first tile of a dispatch, and of its end */
 
 /* What a march does. */
 #define MARCH_LIGHT   1u  /* writes the planes; else only where gas is half opaque */

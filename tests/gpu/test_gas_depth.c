@@ -60,6 +60,23 @@ static void the_march_in_gl_writes_profiles(void **state)
     }
 }
 
+/* The most that the profiles could take is 2.1 MB. */
+static void profiles_are_written_in_parts(void **state)
+{
+    struct kiln_device *device = *state;
+    struct gas_depth f;
+    const long long allowed = device->info.max_storage_block_bytes;
+    device->info.max_storage_block_bytes = 1 << 20;
+    gas_depth_open(&f, &(struct gas_depth_setting){.device = device,
+                                                   .technique = KILN_RASTER_CPU,
+                                                   .march_in_gl = true,
+                                                   .extinction = 8.0f,
+                                                   .half = true});
+    gas_depth_check(&f);
+    gas_depth_close(&f);
+    device->info.max_storage_block_bytes = allowed;
+}
+
 /* A picture of 2^32 pixels has a profile for each of them, of which a texel has four. */
 static void profiles_that_are_too_large_are_an_error(void **state)
 {
@@ -89,6 +106,7 @@ int main(void)
                                        test_on_device(lists_of_fragments_are_blended_with_gas),
                                        test_on_device(pixels_without_a_ray_are_means),
                                        test_on_device(the_march_in_gl_writes_profiles),
+                                       test_on_device(profiles_are_written_in_parts),
                                        test_on_device(profiles_that_are_too_large_are_an_error)};
     return cmocka_run_group_tests(tests, test_device_open, test_device_close);
 }

@@ -187,35 +187,52 @@ static void gas_is_as_on_the_host(void **state)
     }
 }
 
-static void blocks_that_are_too_large_are_an_error(void **state)
+/* Draws gas on a device that allows so few bytes a storage block, and again on the device as it is.
+ * Returns the first error. */
+static struct kiln_error draw_in(struct kiln_device *device, int32_t cells, long long bytes)
 {
-    struct kiln_device *device = *state;
-    struct kiln_error error = {0};
+    struct kiln_error error = {0}, other = {0};
     struct gas_view f;
     gas_view_open_on(&f, device);
-    add_lumps(&f);
+    gas_fixture_lumps(add(&f), cells);
     f.scene->gas[0].shape = f.pool.gas[0].shape;
     struct kiln_threads *threads = kiln_threads_create(1);
     struct kiln_volume_stage *stage = kiln_volume_create(&f.moment, false, threads, &error);
-    const struct kiln_volume_draw draw_it = {
-        .moment = &f.moment, .pool = &f.pool, .backdrop = &f.light, .depth = &f.depth};
+    const struct kiln_volume_draw gas = {.moment = &f.moment,
+                                         .pool = &f.pool,
+                                         .backdrop = &f.light,
+                                         .depth = &f.depth,
+                                         .profiles = true};
     assert_true(kiln_volume_use_gl(stage, device, &error));
     const long long allowed = device->info.max_storage_block_bytes;
-    device->info.max_storage_block_bytes = 1 << 18;
-    assert_false(kiln_volume_draw(stage, &draw_it, &error));
+    device->info.max_storage_block_bytes = bytes;
+    assert_false(kiln_volume_draw(stage, &gas, &error));
     device->info.max_storage_block_bytes = allowed;
-    expect_error_around(&error, KILN_DEVICE_FAILED,
-                        "allows 262144: use march=cpu, or a smaller picture, or larger cells",
-                        "gas needs a storage block of ");
-    assert_true(kiln_volume_draw(stage, &draw_it, &error));
+    assert_true(kiln_volume_draw(stage, &gas, &other));
     kiln_volume_destroy(&stage);
     kiln_threads_destroy(&threads);
     gas_view_close(&f);
+    return error;
+}
+
+static void storage_blocks_that_are_too_small_are_an_error(void **state)
+{
+    struct kiln_device *device = *state;
+    struct kiln_error error = draw_in(device, 64, 1 << 18);
+    expect_error_around(&error, KILN_DEVICE_FAILED,
+                        "allows 262144: use march=cpu, or a smaller picture, or larger cells",
+                        "gas needs a storage block of ");
+    error = draw_in(device, 16, 1 << 18);
+    expect_error(&error, KILN_DEVICE_FAILED,
+                 "the profiles of gas take more than the 262144 bytes that %s allows a storage "
+                 "block: use march=cpu, or a smaller picture",
+                 device->info.name);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {test_on_device(gas_is_as_on_the_host),
-                                       test_on_device(blocks_that_are_too_large_are_an_error)};
+    const struct CMUnitTest tests[] = {
+        test_on_device(gas_is_as_on_the_host),
+        test_on_device(storage_blocks_that_are_too_small_are_an_error)};
     return cmocka_run_group_tests(tests, test_device_open, test_device_close);
 }

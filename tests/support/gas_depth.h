@@ -19,7 +19,7 @@ struct gas_depth {
     struct kiln_volume_stage *stage, *in_gl; /* in_gl: NULL unless march_in_gl */
     struct kiln_threads *threads;
     float depths[GAS_DEPTH_SPRITES]; /* of the sprites, m */
-    bool by_fragment;
+    bool by_fragment, half;          /* as in the setting */
 };
 
 /* Says what is drawn. */
@@ -29,7 +29,7 @@ struct gas_depth_setting {
     bool march_in_gl; /* not for the reference */
     float extinction; /* 1/m */
     bool by_fragment; /* post.compose: oit */
-    bool half;        /* not all pixels of the gas have a ray */
+    bool half;        /* large cells; not all pixels of the gas have a ray, but with march_in_gl */
 };
 
 void gas_depth_open(struct gas_depth *f, const struct gas_depth_setting *setting);

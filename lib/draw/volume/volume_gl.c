@@ -40,6 +40,7 @@ struct kiln_volume_gl {
     struct kiln_buffer uniforms, backdrop;
     uint32_t *tiles; /* four words of each tile that is drawn */
     uint32_t tile_count;
+    size_t profile_words; /* room for profiles */
 };
 
 static size_t pixels_of(const struct kiln_volume_gl *gl)
@@ -304,21 +305,70 @@ static bool send_places(struct kiln_volume_gl *gl, const struct kiln_volume_marc
     return true;
 }
 
-/* Makes room for the most words that profiles may take in the tiles, and empties them. */
+/* Words of the profiles of a tile, at most. */
+enum {
+    PACKET_WORDS = VOLUME_PROFILE_WORDS + VOLUME_NODES + VOLUME_NODES * VOLUME_PACKET * 4,
+    TILE_WORDS = VOLUME_TILE * VOLUME_TILE / VOLUME_PACKET * PACKET_WORDS,
+};
+
+/* Returns whether a march writes profiles. */
+static bool writes_profiles(const struct kiln_volume_march *m)
+{
+    return m->profiles && m->planes.smoke;
+}
+
+/* Makes room for profiles, and empties them: for the most words that they may take in the tiles, or
+ * as many as a storage block has. */
 static bool begin_profiles(struct kiln_volume_gl *gl, const struct kiln_volume_march *m,
                            struct kiln_error *error)
 {
-    enum { MOST = VOLUME_PROFILE_WORDS + VOLUME_NODES + VOLUME_NODES * VOLUME_PACKET * 4 };
-    const size_t packets = (size_t)gl->tile_count * VOLUME_TILE * VOLUME_TILE / VOLUME_PACKET;
     const struct march_totals none = {.used = VOLUME_PROFILE_WORDS};
+    const uint64_t allowed = (uint64_t)gl->device->info.max_storage_block_bytes / sizeof(uint32_t);
+    const size_t least = pixels_of(gl) + VOLUME_PROFILE_WORDS + TILE_WORDS;
+    const size_t most = least + (size_t)gl->tile_count * TILE_WORDS;
     if (!upload(gl, MARCH_BIND_TOTALS, &none, sizeof none, error))
         return false;
-    if (!m->profiles || !m->planes.smoke)
+    if (!writes_profiles(m))
         return true;
-    const size_t words = pixels_of(gl) + VOLUME_PROFILE_WORDS + packets * MOST;
-    if (!make_room(gl, MARCH_BIND_PROFILES, words * sizeof(uint32_t), error))
+    gl->profile_words = most < allowed ? most : least > allowed ? least : (size_t)allowed;
+    if (!make_room(gl, MARCH_BIND_PROFILES, gl->profile_words * sizeof(uint32_t), error))
         return false;
+    gl->profile_words -= pixels_of(gl);
     fill(gl, MARCH_BIND_PROFILES, 0, pixels_of(gl), VOLUME_NO_PROFILE);
+    return true;
+}
+
+/* Returns the tiles whose profiles surely fit behind those that were written. */
+static uint32_t tiles_that_fit(struct kiln_volume_gl *gl, const struct kiln_volume_march *m,
+                               uint32_t left)
+{
+    struct march_totals totals;
+    if (!writes_profiles(m))
+        return left;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    fetch(gl, MARCH_BIND_TOTALS, 0, &totals, sizeof totals);
+    const size_t fit = (gl->profile_words - totals.used) / TILE_WORDS;
+    return fit < left ? (uint32_t)fit : left;
+}
+
+/* Marches through all tiles, by one dispatch or, if their profiles may not fit together, several.
+ */
+static bool dispatch(struct kiln_volume_gl *gl, const struct kiln_volume_march *m,
+                     struct kiln_error *error)
+{
+    for (uint32_t first = 0; first < gl->tile_count;) {
+        const uint32_t count = tiles_that_fit(gl, m, gl->tile_count - first);
+        if (count == 0)
+            return kiln_error_set(
+                error, KILN_DEVICE_FAILED,
+                "the profiles of gas take more than the %lld bytes that %s allows "
+                "a storage block: use march=cpu, or a smaller picture",
+                (long long)gl->device->info.max_storage_block_bytes, gl->device->info.name);
+        glUniform2ui(MARCH_AT_TILES, first, first + count);
+        kiln_device_dispatch(gl->device, count, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        first += count;
+    }
     return true;
 }
 
@@ -332,7 +382,7 @@ static bool fetch_profiles(struct kiln_volume_gl *gl, const struct kiln_volume_m
     fetch(gl, MARCH_BIND_TOTALS, 0, &totals, sizeof totals);
     atomic_fetch_add(&m->counts->rays, totals.rays);
     atomic_fetch_add(&m->counts->samples, totals.samples);
-    if (m->profiles && m->planes.smoke) {
+    if (writes_profiles(m)) {
         const size_t bytes = (size_t)totals.used * sizeof(uint32_t);
         fetch(gl, MARCH_BIND_PROFILES, 0, m->profiles->profile_of, head);
         fetch(gl, MARCH_BIND_PROFILES, head, m->profiles->memory, bytes);
@@ -345,7 +395,7 @@ bool kiln_volume_gl_march(struct kiln_volume_gl *gl, const struct kiln_volume_ma
                           const struct kiln_volume_tiles *tiles, bool same_field,
                           struct kiln_error *error)
 {
-    const GLuint program = program_of(gl, march->profiles && march->planes.smoke, error);
+    const GLuint program = program_of(gl, writes_profiles(march), error);
     if (!program || !send_places(gl, march, tiles, error) || !begin_profiles(gl, march, error) ||
         !send_uniforms(gl, march, error) || (!same_field && !send_field(gl, march, error)))
         return false;
@@ -354,9 +404,7 @@ bool kiln_volume_gl_march(struct kiln_volume_gl *gl, const struct kiln_volume_ma
     glActiveTexture(GL_TEXTURE0 + MARCH_UNIT_DEPTH);
     glBindTexture(GL_TEXTURE_2D, gl->depth);
     glUseProgram(program);
-    glUniform1ui(MARCH_AT_TILES, gl->tile_count);
-    kiln_device_dispatch(gl->device, gl->tile_count, 1);
-    return fetch_profiles(gl, march, error);
+    return dispatch(gl, march, error) && fetch_profiles(gl, march, error);
 }
 
 bool kiln_volume_gl_end(struct kiln_volume_gl *gl, const struct kiln_volume_planes *planes,

@@ -29,7 +29,7 @@ layout(std430, binding = MARCH_BIND_PROFILES) writeonly buffer profiles_block { 
 
 layout(binding = MARCH_UNIT_DEPTH) uniform sampler2D scene_depth;
 
-layout(location = MARCH_AT_TILES) uniform uint tile_count;
+layout(location = MARCH_AT_TILES) uniform uvec2 tile_range; /* first and end */
 
 #include "draw/light/haze.glsl"
 #include "draw/volume/volume_noise.glsl"
@@ -171,8 +171,8 @@ void count_work(uint samples)
 
 void main()
 {
-    uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    if (number >= tile_count)
+    uint number = tile_range.x + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (number >= tile_range.y)
         return;
     uint tile = march.picture.y + number * 4u;
     uint i = gl_LocalInvocationIndex, packet = i / uint(VOLUME_PACKET);
