@@ -4,8 +4,9 @@
  * steps as there, so both pictures agree to rounding, and by what the host leaves out.
  *
  * lib/draw/volume/volume_gl.c runs it for each domain, from the farthest on. It defines PROFILES if
- * profiles of the rays are wanted. Software GL limits the iterations of loops: a ray has at most
- * 3600 steps (KILN_MAX_GAS_EDGE), and the loops of profiles run a few times for each record. */
+ * profiles of the rays are wanted. Software GL limits the iterations of loops to 65535
+ * (KILN_SOFTWARE_ITERATIONS): a ray has at most 3600 steps (KILN_MAX_GAS_EDGE), with at most as many
+ * records, and the loops of profiles run less than 1000 times. */
 // variant:
 // variant: PROFILES=1
 #include "shared/draw_layout.h"

@@ -1,5 +1,5 @@
 /* Samples the blocks of a domain of gas for a step of a ray, and adds the step's light, as
- * lib/draw/volume/volume_march_simd.c does on the host. */
+ * lib/draw/volume/volume_sample.h, volume_detail.h and volume_march_simd.c do on the host. */
 
 const float HOTTEST = 1.25; /* as in flame_colors.h */
 
