@@ -107,6 +107,18 @@ SIMD bool is_clear(const struct eight values[VOLUME_CELL])
     return !any(some);
 }
 
+/* Holds the floats of a cell that has VOLUME_FOUR of them. */
+typedef float four __attribute__((vector_size(4 * VOLUME_FOUR)));
+
+/* Interpolates between the floats of two cells. */
+SIMD four four_between(const float *a, const float *b, float part)
+{
+    four from, to;
+    memcpy(&from, a, sizeof from);
+    memcpy(&to, b, sizeof to);
+    return from + (to - from) * part;
+}
+
 /* Samples numbers of cells that have VOLUME_FOUR floats, the first `count` of them; zeros where a
  * ray has no block. fours: of the field. */
 SIMD_ONCE void sample_fours(const float *fours, const struct places *at, int count,
@@ -115,21 +127,21 @@ SIMD_ONCE void sample_fours(const float *fours, const struct places *at, int cou
     enum { ROW = VOLUME_ROW / VOLUME_CELL * VOLUME_FOUR };
     enum { PLANE = VOLUME_PLANE / VOLUME_CELL * VOLUME_FOUR };
     _Alignas(32) float sampled[VOLUME_FOUR][8];
-    memset(sampled, 0, sizeof sampled);
     for (int i = 0; i < 8; i++) {
         const float x = at->part[0][i], y = at->part[1][i], z = at->part[2][i];
-        if (at->block[i] < 0)
-            continue;
-        const ptrdiff_t number = at->cell[i] / VOLUME_CELL;
-        const float *cell = fours + (size_t)at->block[i] * VOLUME_FOURS + number * VOLUME_FOUR;
-        for (int c = 0; c < count; c++, cell++) {
-#define ALONG(p) ((p)[0] + ((p)[VOLUME_FOUR] - (p)[0]) * x)
-            const float a = ALONG(cell), b = ALONG(cell + ROW);
-            const float d = ALONG(cell + PLANE), e = ALONG(cell + PLANE + ROW);
+        four value = {0.0f, 0.0f, 0.0f, 0.0f};
+        if (at->block[i] >= 0) {
+            const ptrdiff_t number = at->cell[i] / VOLUME_CELL;
+            const float *cell = fours + (size_t)at->block[i] * VOLUME_FOURS + number * VOLUME_FOUR;
+#define ALONG(p) four_between(p, (p) + VOLUME_FOUR, x)
+            const four a = ALONG(cell), b = ALONG(cell + ROW);
+            const four d = ALONG(cell + PLANE), e = ALONG(cell + PLANE + ROW);
 #undef ALONG
-            const float low = a + (b - a) * y, high = d + (e - d) * y;
-            sampled[c][i] = low + (high - low) * z;
+            const four low = a + (b - a) * y, high = d + (e - d) * y;
+            value = low + (high - low) * z;
         }
+        for (int c = 0; c < VOLUME_FOUR; c++)
+            sampled[c][i] = value[c];
     }
     for (int c = 0; c < count; c++)
         values[c] = eight_load(sampled[c]);
