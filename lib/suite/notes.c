@@ -211,16 +211,36 @@ static void note_unused(struct kiln_test_case *test_case)
     free(entries);
 }
 
+/* Returns whether a list, whose entries a space parts, has a technique. */
+static bool has_technique(const char *list, const char *technique)
+{
+    const size_t length = strlen(technique);
+    for (const char *at = strstr(list, technique); at; at = strstr(at + 1, technique))
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
+            return true;
+    return false;
+}
+
+/* Notes that stages run by other techniques than those that were accepted. A stage that the golden
+ * does not name is newer than the golden, and says nothing. */
+static void note_techniques(struct kiln_test_case *test_case)
+{
+    const struct kiln_expect *expect = test_case->expect;
+    const struct kiln_result *result = test_case->result;
+    bool same = true;
+    for (size_t i = 0; i < expect->technique_count; i++)
+        same &= has_technique(result->techniques, expect->techniques[i]);
+    if (!same)
+        kiln_test_case_note(test_case, "the techniques are %s, but %s were accepted",
+                            result->techniques, result->techniques_expected);
+}
+
 void kiln_test_case_take_notes(struct kiln_test_case *test_case)
 {
-    const struct kiln_result *result = test_case->result;
     note_limits(test_case);
     if (!test_case->params->ignore_hashes)
         note_states(test_case);
     note_scene(test_case);
     note_unused(test_case);
-    if (*result->techniques_expected &&
-        strcmp(result->techniques, result->techniques_expected) != 0)
-        kiln_test_case_note(test_case, "the techniques are %s, but %s were accepted",
-                            result->techniques, result->techniques_expected);
+    note_techniques(test_case);
 }

@@ -385,6 +385,20 @@ static void stale_limits_are_noted(void **state)
     spark_end(&run);
 }
 
+/* A stage that the golden does not name is newer than the golden. */
+static void stages_newer_than_the_golden_are_not_noted(void **state)
+{
+    (void)state;
+    spark_write("");
+    spark_update(KILN_UPDATE_MISSING);
+    spark_replace(EXPECT, "\"march=cpu\", ", "");
+    struct spark_run run = spark_run(NULL);
+    assert_int_equal(run.summary.status, KILN_TEST_PASS);
+    if (run.summary.notes > 0)
+        fail_msg("%s", run.result->notes[0]);
+    spark_end(&run);
+}
+
 static void other_techniques_and_missing_states_are_noted(void **state)
 {
 #define OTHERS "gas=cpu sort=cpu backdrop=cpu march=cpu raster=cpu bloom=cpu composite=cpu"
@@ -504,6 +518,7 @@ int main(void)
         IN_FOLDER(settings_that_judge_less_are_noted),
         IN_FOLDER(goldens_of_no_frame_are_noted),
         IN_FOLDER(stale_limits_are_noted),
+        IN_FOLDER(stages_newer_than_the_golden_are_not_noted),
         IN_FOLDER(other_techniques_and_missing_states_are_noted),
         IN_FOLDER(update_failed_replaces_the_nearest_golden),
         IN_FOLDER(crashes_are_recorded),
