@@ -150,7 +150,7 @@ static bool read_picture(struct kiln_loop *loop, uint32_t frame, struct kiln_dra
     const struct kiln_scene *scene = loop->scene;
     const char *names[KILN_MAX_LAYERS];
     uint32_t channels[KILN_MAX_LAYERS];
-    const uint32_t all = kiln_stages_layers(kiln_volume_exists(scene), names, channels);
+    const uint32_t all = kiln_stages_layers(kiln_volume_domains(scene) > 0, names, channels);
     const uint32_t layers[] = {
         [KILN_LAYERS_NONE] = 0, [KILN_LAYERS_BEAUTY] = 1, [KILN_LAYERS_ALL] = all};
     struct kiln_picture *picture = kiln_spare_pictures_take(loop->spares);

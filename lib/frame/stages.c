@@ -299,14 +299,6 @@ static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_err
                                    kiln_coarse_prepare(s->coarse, &s->scene_depth, error), error));
 }
 
-/* Returns whether there are particles that are blended with gas by its profiles. */
-static bool blends_with_gas(const struct kiln_stages *s)
-{
-    const uint64_t systems =
-        transparent_systems(s, KILN_BLEND_ADD) | transparent_systems(s, KILN_BLEND_ALPHA);
-    return systems != 0;
-}
-
 /* Draws gas, and its glow, before the particles. With `separate` the glow of flames comes later, as
  * that of fire. moment: its number. */
 static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, uint32_t moment,
@@ -314,13 +306,15 @@ static bool draw_gas(struct kiln_stages *s, const struct kiln_pool *pool, uint32
 {
     const enum kiln_volume_light_of glow =
         s->scene->post.compose == KILN_COMPOSE_SEPARATE ? KILN_VOLUME_SMOKE : KILN_VOLUME_ALL;
+    const uint64_t sprites =
+        transparent_systems(s, KILN_BLEND_ADD) | transparent_systems(s, KILN_BLEND_ALPHA);
     const bool last = moment + 1 == kiln_scene_moment_count(s->scene);
     const struct kiln_volume_draw draw = {.moment = &s->moment,
                                           .pool = pool,
                                           .backdrop = kiln_backdrop_block(s->backdrop),
                                           .lighting = &s->light,
                                           .depth = &s->scene_depth,
-                                          .profiles = blends_with_gas(s),
+                                          .profiles = sprites != 0,
                                           .same = s->same_instant,
                                           .halfway = s->layers && last ? &s->gas_depth : NULL};
     return RUN_PASS(

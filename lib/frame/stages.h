@@ -107,7 +107,7 @@ bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
                       struct kiln_error *error);
 
 /* Writes the names and channels of a frame's layers for kiln_picture_create, with those of gas or
- * without them; a scene has them if kiln_volume_exists. Returns the number of layers. */
+ * without them; a scene has them if kiln_volume_domains is not 0. Returns the number of layers. */
 uint32_t kiln_stages_layers(bool gas, const char *names[KILN_MAX_LAYERS],
                             uint32_t channels[KILN_MAX_LAYERS]);
 

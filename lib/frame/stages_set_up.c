@@ -170,7 +170,7 @@ static bool init_drawing(struct kiln_stages *s, const struct kiln_techniques *te
 static bool init_volume(struct kiln_stages *s, enum kiln_march_technique technique,
                         struct kiln_error *error)
 {
-    if (!kiln_volume_exists(s->scene))
+    if (kiln_volume_domains(s->scene) == 0)
         return true;
     const uint32_t w = s->scene->width, h = s->scene->height;
     kiln_image_init(&s->gas_color, s->device, w, h, GL_RGBA32F, "gas");

@@ -36,7 +36,8 @@ static bool refuse(const struct kiln_scene *scene, const char *name, struct kiln
 {
     const char *names[KILN_MAX_LAYERS + 1] = {DISPLAY};
     uint32_t channels[KILN_MAX_LAYERS];
-    const uint32_t count = 1 + kiln_stages_layers(kiln_volume_exists(scene), names + 1, channels);
+    const uint32_t count =
+        1 + kiln_stages_layers(kiln_volume_domains(scene) > 0, names + 1, channels);
     if (is_layer(true, name))
         return kiln_error_set(error, KILN_USAGE,
                               "the layer '%s' needs gas, of which '%s' draws none", name,
@@ -62,7 +63,7 @@ bool kiln_views_need(const struct kiln_scene *scene, const struct kiln_render_pa
         const bool beauty = strcmp(names[i], BEAUTY) == 0;
         if (strcmp(names[i], DISPLAY) == 0)
             needs->bits = needs->bits > 0 ? needs->bits : 8;
-        else if (!is_layer(kiln_volume_exists(scene), names[i]))
+        else if (!is_layer(kiln_volume_domains(scene) > 0, names[i]))
             return refuse(scene, names[i], error);
         else if (!beauty || needs->layers == KILN_LAYERS_NONE)
             needs->layers = beauty ? KILN_LAYERS_BEAUTY : KILN_LAYERS_ALL;

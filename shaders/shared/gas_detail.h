@@ -7,8 +7,11 @@
  * the gas itself has. */
 #define GAS_NOISE_CELL 3.0f
 
-/* What is added to the place of the second group's noise, so that it is other noise. */
+/* The second group of ways has the noise of places so far away, cells of the lattice. */
 #define GAS_NOISE_APART 511.5f
+
+/* Brings the root of the mean square of the noise to 1. */
+#define GAS_NOISE_UNIT 1.32f
 
 /* The size of an octave of noise by that of the one before, and the mean square of two. */
 #define GAS_OCTAVE      0.6f

@@ -14,6 +14,9 @@
 
 #define VOLUME_DEPTH_UNIT (1.0f / 8192.0f)
 
+/* The optical depth of gas that is half opaque: the natural logarithm of 2. */
+#define VOLUME_HALF_OPAQUE 0.693147181f
+
 /* Gas that lets less than this part of the light through hides all that is behind it. */
 #define VOLUME_OPAQUE_BELOW 0.002f
 

@@ -4,12 +4,13 @@
 #ifndef KILN_SHARED_MARCH_LAYOUT_H
 #define KILN_SHARED_MARCH_LAYOUT_H
 
+#include "shared/flame_table.h"
 #include "shared/gas_detail.h"
 #include "shared/gas_profile.h"
 
 /* Storage blocks. */
 #define MARCH_BIND_BLOCKS 0 /* cells of blocks, two vec4 each: volume_field.h */
-/* Where the gas came from, as the blocks; then the edges of all cells, a vec4 each. */
+/* The ways of the gas in all cells, two vec4 each; then the edges of all cells, a vec4 each. */
 #define MARCH_BIND_FINER    1
 #define MARCH_BIND_TINTS    2 /* what coloured smoke scatters, a vec4 a cell */
 #define MARCH_BIND_PLACES   3 /* the block of each brick; then the tiles, four words each */
@@ -23,20 +24,14 @@
 #define MARCH_UNIT_DEPTH    0 /* texture of the scene's depths */
 #define MARCH_AT_TILES      0 /* location of the first tile of a dispatch, and of its end */
 
-/* What a march does. */
+/* A march does some of these things. */
 #define MARCH_LIGHT   1u  /* writes the planes; else only where gas is half opaque */
 #define MARCH_GLOW    2u  /* writes the plane of glow, too */
 #define MARCH_HALFWAY 4u  /* writes where gas is half opaque */
 #define MARCH_COLORED 8u  /* smoke has colours */
 #define MARCH_HAZE    16u /* there is haze before the gas */
 
-/* Numbers of a temperature's light (lib/draw/light/flame_colors.h). */
-#define MARCH_FLAME_COLORS 512
-
-/* The optical depth of gas that is half opaque: the natural logarithm of 2. */
-#define MARCH_HALF_OPAQUE 0.693147181f
-
-/* The march through a domain. */
+/* Describes the march through a domain. */
 struct kiln_march {
     float4 eye;   /* in the window; w: depth of the near plane, m */
     float4 right; /* cells for a metre along the axes of the view; w: m of the world along a cell */
@@ -53,10 +48,10 @@ struct kiln_march {
     uint4 bricks;    /* of the window; w: width of the picture, px */
     uint4 picture; /* height; first word of tiles, and of the memory of profiles; vec4s before edges
                     */
-    float4 colors[MARCH_FLAME_COLORS + 1];
+    float4 colors[FLAME_COLORS + 1];
 };
 
-/* What a march has taken: words of the memory of profiles; rays that met gas; samples. */
+/* Counts the work of a march: words of the memory of profiles; rays that met gas; samples. */
 struct march_totals {
     uint used, rays, samples, unused;
 };

@@ -13,7 +13,7 @@
 
 enum { SIZE = GAS_VIEW_SIZE, FLOATS = GAS_VIEW_FLOATS, PIXELS = FLOATS / 4 };
 
-/* What a march draws. */
+/* Holds what a march draws. */
 struct drawn {
     float picture[FLOATS], layer[FLOATS], halfway_m[PIXELS];
 };

@@ -46,8 +46,9 @@ static void step_and_draw(struct frame *f, uint32_t steps)
     struct kiln_error error = {0};
     const char *names[KILN_MAX_LAYERS];
     uint32_t channels[KILN_MAX_LAYERS];
-    uint32_t count =
-        f->stages.layers ? kiln_stages_layers(kiln_volume_exists(f->scene), names, channels) : 0;
+    uint32_t count = f->stages.layers
+                         ? kiln_stages_layers(kiln_volume_domains(f->scene) > 0, names, channels)
+                         : 0;
     for (uint32_t step = f->run.step + 1; step <= steps; step++)
         assert_true(kiln_simulate_step(f->simulate, &f->run.pool, step, &error));
     f->run.step = steps;

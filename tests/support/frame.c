@@ -48,7 +48,7 @@ struct kiln_picture *frame_try(struct kiln_device *device, const char *text, uin
     assert_string_equal(error.message, "");
     const char *names[KILN_MAX_LAYERS];
     uint32_t channels[KILN_MAX_LAYERS],
-        count = kiln_stages_layers(kiln_volume_exists(scene), names, channels);
+        count = kiln_stages_layers(kiln_volume_domains(scene) > 0, names, channels);
     struct kiln_picture *picture =
         kiln_picture_create(scene->width, scene->height, 8, names, channels, count, &error);
     assert_non_null(picture);

@@ -145,8 +145,8 @@ static void flames_shine_by_plancks_law(void **state)
     kiln_observer_fill(&observer);
     kiln_flame_colors_fill(&colors, &observer, 900.0f, 2250.0f);
     const double hottest = luminance_of(2250.0);
-    for (int i = 0; i <= KILN_FLAME_COLORS; i += 16) {
-        const double temperature = i * 1.25 / KILN_FLAME_COLORS;
+    for (int i = 0; i <= FLAME_COLORS; i += 16) {
+        const double temperature = i * (double)FLAME_HOTTEST / FLAME_COLORS;
         const double kelvin = 900.0 + 1350.0 * temperature;
         const double expected = luminance_of(kelvin) / hottest;
         const float rgb[3] = {colors.rgb[i].x, colors.rgb[i].y, colors.rgb[i].z};

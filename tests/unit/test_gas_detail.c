@@ -192,7 +192,8 @@ static void sheared_gas_has_no_noise(void **state)
     gas_view_close(&f);
 }
 
-/* Where one group is sheared, the other one takes its part. Both are seen alike at step 6. */
+/* Both groups are seen alike at step 6. If one is sheared, the picture has the noise of the other.
+ */
 static void the_other_group_takes_the_part_of_a_sheared_one(void **state)
 {
     (void)state;

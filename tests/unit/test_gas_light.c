@@ -438,7 +438,7 @@ static void objects_hide_lamps_from_gas(void **state)
 
 /* ---- sun and sky on gas ---------------------------------------------------------------------- */
 
-/* What lights thin gas through a slab. */
+/* Names the light that reaches thin gas through a slab. */
 enum light { SUN, SKY };
 
 /* Returns the light of the middle of thin gas below a slab of 2 m, which hides `extinction` a metre

@@ -10,8 +10,8 @@ void kiln_flame_colors_fill(struct kiln_flame_colors *colors, const struct kiln_
     colors->kelvin[0] = cold_kelvin;
     colors->kelvin[1] = hot_kelvin;
     const float luminance = kiln_blackbody_luminance(observer, hot_kelvin);
-    for (int i = 0; i <= KILN_FLAME_COLORS; i++) {
-        const float temperature = (float)i * (KILN_FLAME_HOTTEST / (float)KILN_FLAME_COLORS);
+    for (int i = 0; i <= FLAME_COLORS; i++) {
+        const float temperature = (float)i * (FLAME_HOTTEST / (float)FLAME_COLORS);
         const float kelvin = cold_kelvin + (hot_kelvin - cold_kelvin) * temperature;
         float rgb[3];
         kiln_blackbody_light(observer, kelvin, luminance, rgb);

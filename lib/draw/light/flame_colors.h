@@ -5,15 +5,11 @@
 
 #include "asset/atlas/blackbody.h"
 #include "shared/exact.h"
-
-enum { KILN_FLAME_COLORS = 512 };
-
-/* The hottest temperature of the table; hotter flames look alike. */
-#define KILN_FLAME_HOTTEST 1.25f
+#include "shared/flame_table.h"
 
 struct kiln_flame_colors {
-    /* rgb at temperatures from 0 to KILN_FLAME_HOTTEST; w: luminance */
-    float4 rgb[KILN_FLAME_COLORS + 1];
+    /* rgb at temperatures from 0 to FLAME_HOTTEST; w: luminance */
+    float4 rgb[FLAME_COLORS + 1];
     float kelvin[2]; /* at temperature 0 and 1 */
 };
 
@@ -25,10 +21,10 @@ void kiln_flame_colors_fill(struct kiln_flame_colors *colors, const struct kiln_
 static inline float4 kiln_flame_color_near(const struct kiln_flame_colors *colors,
                                            float temperature)
 {
-    const float most = (float)KILN_FLAME_COLORS;
-    float place = temperature * (most / KILN_FLAME_HOTTEST) + 0.5f;
+    const float most = (float)FLAME_COLORS;
+    float place = temperature * (most / FLAME_HOTTEST) + 0.5f;
     place = place > 0.0f ? place : 0.0f;
-    return colors->rgb[place < most ? exact_int(place) : KILN_FLAME_COLORS];
+    return colors->rgb[place < most ? exact_int(place) : FLAME_COLORS];
 }
 
 #endif

@@ -33,8 +33,8 @@ struct kiln_lighting {
     float4 sun_to_grid[3], sky_to_grid[3];   /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth; /* optical depth in the grids, KILN_SMOKE_GRID cubed, rows
                                          * along x; sun_depth is NULL where there is no sun */
-    /* The same of all smoke but the gas of a domain, by which it dims that gas; NULL: nothing does
-     */
+    /* Holds the optical depths of all smoke but the gas of a domain, which dims that gas, in the
+     * same grids; NULL: there is none */
     struct kiln_other_smoke {
         const float *sun_depth, *sky_depth;
     } other_smoke[KILN_MAX_GAS];

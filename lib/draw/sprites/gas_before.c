@@ -31,22 +31,11 @@ struct kiln_gas_before {
     uint4 domains[KILN_MAX_GAS];             /* as in struct kiln_gas_before_block */
 };
 
-uint32_t kiln_gas_before_domains(const struct kiln_scene *scene)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->gas_count; i++)
-        count += scene->gas[i].enabled;
-    return count;
-}
-
 const char *kiln_gas_before_defines(const struct kiln_scene *scene)
 {
-    bool half = false;
-    for (uint32_t i = 0; i < scene->gas_count; i++)
-        half |= scene->gas[i].enabled && scene->gas[i].look.resolution == KILN_GAS_HALF;
-    return half                        ? "#define GAS 1\n#define GAS_BETWEEN 1\n"
-           : kiln_volume_exists(scene) ? "#define GAS 1\n"
-                                       : "";
+    return kiln_volume_has_half(scene)      ? "#define GAS 1\n#define GAS_BETWEEN 1\n"
+           : kiln_volume_domains(scene) > 0 ? "#define GAS 1\n"
+                                            : "";
 }
 
 /* Makes the buffer so large. Its contents are lost. */

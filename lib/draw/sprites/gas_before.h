@@ -8,9 +8,6 @@
 
 struct kiln_gas_before;
 
-/* Returns the number of domains of gas that a scene draws. */
-uint32_t kiln_gas_before_domains(const struct kiln_scene *scene);
-
 /* Returns the definitions of shaders that blend particles of a scene with its gas: none without
  * gas. */
 const char *kiln_gas_before_defines(const struct kiln_scene *scene);

@@ -42,7 +42,7 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
         stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
     if (technique == KILN_RASTER_TILED && stage->geometry)
         stage->tiled = kiln_tiled_create(device, scene, stage->geometry, error);
-    const bool gas = stage->geometry && kiln_volume_exists(scene);
+    const bool gas = stage->geometry && kiln_volume_domains(scene) > 0;
     if (gas)
         stage->gas = kiln_gas_before_create(device, error);
     if ((!stage->geometry && !stage->tiles) || (technique == KILN_RASTER_TILED && !stage->tiled) ||

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "draw/sprites/gas_before.h"
+#include "draw/volume/volume.h"
 #include "gpu/program.h"
 #include "shared/tiled_layout.h"
 
@@ -152,7 +152,7 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
         kiln_error_no_memory(error, "particles");
         return NULL;
     }
-    const uint32_t domains = kiln_gas_before_domains(scene);
+    const uint32_t domains = kiln_volume_domains(scene);
     *tiled = (struct kiln_tiled){
         .device = device,
         .geometry = geometry,

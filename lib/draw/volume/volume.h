@@ -26,8 +26,11 @@ enum kiln_volume_light_of {
     KILN_VOLUME_SHINE, /* the same, which particles do not hide either */
 };
 
-/* Returns whether the scene has gas that is drawn. */
-bool kiln_volume_exists(const struct kiln_scene *scene);
+/* Returns the number of domains of gas that a scene draws. */
+uint32_t kiln_volume_domains(const struct kiln_scene *scene);
+
+/* Returns whether some pixels of a domain may have no ray: KILN_GAS_HALF. */
+bool kiln_volume_has_half(const struct kiln_scene *scene);
 
 /* Creates the stage; NULL with an error. Moment and threads must outlive it. glow: whether
  * kiln_volume_add_glow will be called. */

@@ -12,10 +12,10 @@
 /* The cells on each side of a block that its values are made from, and along an edge with them. */
 enum { BORDER = 2, AROUND = VOLUME_EDGE + 2 * BORDER };
 
-/* What is filtered. */
+/* Numbers the values that are filtered. */
 enum { SMOKE, FLAME, HEAT, RED, GREEN, BLUE, FILTERED };
 
-/* Ways of both groups of GAS_CAME_FROM: x, y, z. */
+/* Counts the axes of the ways of both groups of GAS_CAME_FROM. */
 enum { WAYS = 6 };
 
 /* How much ways may stretch gas until it counts as sheared: the root of the mean square of how long

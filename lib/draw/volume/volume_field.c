@@ -48,7 +48,7 @@ struct scan_job {
     const struct kiln_volume_seen *seen;
 };
 
-/* Where in a brick gas is seen. */
+/* Says where in a brick gas is seen: anywhere, or also in its last cells along an axis. */
 enum { SEEN = 1, SEEN_LAST_X = 2, SEEN_LAST_Y = 4, SEEN_LAST_Z = 8 };
 
 static void scan_bricks(void *context, size_t begin, size_t end, uint32_t worker)

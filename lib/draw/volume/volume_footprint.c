@@ -7,29 +7,33 @@
 #include "scene/gas_extent.h"
 #include "scene/work.h"
 
-bool kiln_volume_exists(const struct kiln_scene *scene)
+uint32_t kiln_volume_domains(const struct kiln_scene *scene)
 {
-    for (uint32_t i = 0; i < scene->gas_count; i++) {
-        if (scene->gas[i].enabled)
-            return true;
-    }
-    return false;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->gas_count; i++)
+        count += scene->gas[i].enabled;
+    return count;
 }
 
-size_t kiln_volume_grid_of(const struct kiln_scene *scene)
+bool kiln_volume_has_half(const struct kiln_scene *scene)
 {
     bool half = false;
     for (uint32_t i = 0; i < scene->gas_count; i++)
         half |= scene->gas[i].enabled && scene->gas[i].look.resolution == KILN_GAS_HALF;
-    return half ? kiln_volume_grid_bytes(scene->width, scene->height) : 0;
+    return half;
+}
+
+size_t kiln_volume_grid_of(const struct kiln_scene *scene)
+{
+    return kiln_volume_has_half(scene) ? kiln_volume_grid_bytes(scene->width, scene->height) : 0;
 }
 
 void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint *footprint)
 {
     const uint64_t pixels = (uint64_t)scene->width * scene->height;
     uint64_t largest = 0;
-    uint32_t drawn = 0;
-    if (!kiln_volume_exists(scene))
+    const uint32_t drawn = kiln_volume_domains(scene);
+    if (drawn == 0)
         return;
     for (uint32_t i = 0; i < scene->gas_count; i++) {
         const struct kiln_gas_extent extent = kiln_gas_extent(scene, i);
@@ -37,7 +41,6 @@ void kiln_volume_footprint(const struct kiln_scene *scene, struct kiln_footprint
         const uint64_t bytes = kiln_volume_field_bytes(&scene->gas[i].shape, extent.bricks) +
                                kiln_volume_slices_bytes(cells) + kiln_volume_glow_bytes(cells);
         largest = scene->gas[i].enabled && bytes > largest ? bytes : largest;
-        drawn += scene->gas[i].enabled;
     }
     kiln_footprint_add(footprint, KILN_FOOTPRINT_GAS, 1, largest);
     if (scene->backdrop.object_count > 0)

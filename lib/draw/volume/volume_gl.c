@@ -11,9 +11,7 @@
 #include "gpu/program.h"
 #include "shared/march_layout.h"
 
-static_assert(KILN_FLAME_COLORS == MARCH_FLAME_COLORS, "struct kiln_march");
-static_assert(sizeof(struct kiln_march) == (16 + MARCH_FLAME_COLORS + 1) * sizeof(float4),
-              "std140");
+static_assert(sizeof(struct kiln_march) == (16 + FLAME_COLORS + 1) * sizeof(float4), "std140");
 static_assert(sizeof(struct kiln_march) <= 16384, "what every GL allows a uniform block");
 static_assert(VOLUME_CELL == 8 && VOLUME_FOUR == 4 && VOLUME_EDGE == 9 && GAS_BRICK == 8,
               "volume_sample.glsl");

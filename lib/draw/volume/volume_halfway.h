@@ -5,9 +5,6 @@
 
 #include "draw/volume/volume_packet.h"
 
-/* The optical depth of gas that is half opaque: the natural logarithm of 2. */
-#define HALF_OPAQUE 0.693147181f
-
 /* Holds the gas of rays that a step adds. */
 struct halfway_step {
     struct eight before, behind; /* optical depth of this domain before and behind it */
@@ -19,7 +16,7 @@ SIMD_ONCE void halfway_begin(const struct kiln_volume_march *m, const struct pix
 {
     float depth[VOLUME_PACKET] = {0};
     for (uint32_t k = 0; k < pixels->count; k++)
-        depth[k] = HALF_OPAQUE - m->halfway.passed[pixels->at[k]];
+        depth[k] = VOLUME_HALF_OPAQUE - m->halfway.passed[pixels->at[k]];
     *h = (struct halfway){.depth = eight_load(depth)};
 }
 

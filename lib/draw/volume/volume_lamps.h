@@ -26,6 +26,20 @@ static inline bool kiln_volume_lamp_is_clear(const struct kiln_volume_lamp *lamp
            !kiln_shape_set_any(&lamp->casters);
 }
 
+/* Finds place number n of a block, m; beyond the last one, that one. */
+static inline void kiln_volume_find_place(const struct kiln_volume_frame *frame,
+                                          struct kiln_gas_place brick, int n, float at[3])
+{
+    enum { EDGE = VOLUME_SPARSE, LAST = EDGE * EDGE * EDGE - 1 };
+    n = n < LAST ? n : LAST;
+    const float x = (float)(brick.x * GAS_BRICK + 2 * (n % EDGE)) + 0.5f;
+    const float y = (float)(brick.y * GAS_BRICK + 2 * (n / EDGE % EDGE)) + 0.5f;
+    const float z = (float)(brick.z * GAS_BRICK + 2 * (n / (EDGE * EDGE))) + 0.5f;
+    for (int c = 0; c < 3; c++)
+        at[c] = frame->corner[c] + frame->edges[0][c] * x + frame->edges[1][c] * y +
+                frame->edges[2][c] * z;
+}
+
 /* Writes the part of a lamp's light, in that of a white surface, that smoke of a block scatters: of
  * its octaves, what smoke leaves of them, and past objects. */
 typedef void kiln_volume_lamp_reach(const struct kiln_volume_lamp *lamp,

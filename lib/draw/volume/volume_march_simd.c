@@ -18,8 +18,8 @@
 /* Returns the light of flames by their temperature. */
 SIMD struct columns flame_light(const struct kiln_flame_colors *colors, vf temperature)
 {
-    const vf place = vf_clamp(temperature * ((float)KILN_FLAME_COLORS / KILN_FLAME_HOTTEST), 0.0f,
-                              (float)KILN_FLAME_COLORS - 0.001f);
+    const vf place = vf_clamp(temperature * ((float)FLAME_COLORS / FLAME_HOTTEST), 0.0f,
+                              (float)FLAME_COLORS - 0.001f);
     const vi low = vi_of(place);
     const struct lane_offsets at = lane_offsets_of(low * 4);
     vf part[4];

@@ -4,9 +4,7 @@
 #define KILN_DRAW_VOLUME_VOLUME_NOISE_H
 
 #include "base/lane_math.h"
-
-/* Brings the root of the mean square of the noise to 1. */
-#define VOLUME_NOISE_UNIT 1.32f
+#include "shared/gas_detail.h"
 
 /* Returns random bits for points of the lattice. */
 SIMD vu noise_bits(vu x, vu y, vu z)
@@ -50,7 +48,7 @@ SIMD_ONCE vf noise_at(struct vf3 place)
         }
         planes[k] = rows[0] + (rows[1] - rows[0]) * v;
     }
-    return VOLUME_NOISE_UNIT * (planes[0] + (planes[1] - planes[0]) * w);
+    return GAS_NOISE_UNIT * (planes[0] + (planes[1] - planes[0]) * w);
 }
 
 #endif

@@ -9,17 +9,11 @@
 SIMD struct vf3 volume_places_of(const struct kiln_volume_frame *frame, struct kiln_gas_place brick,
                                  int first)
 {
-    const int count = VOLUME_SPARSE * VOLUME_SPARSE * VOLUME_SPARSE;
-    float at[3][LANES];
+    float at[3][LANES], place[3];
     for (int i = 0; i < LANES; i++) {
-        const int n = first + i < count ? first + i : count - 1;
-        const float cell[3] = {
-            (float)(brick.x * GAS_BRICK + 2 * (n % VOLUME_SPARSE)) + 0.5f,
-            (float)(brick.y * GAS_BRICK + 2 * (n / VOLUME_SPARSE % VOLUME_SPARSE)) + 0.5f,
-            (float)(brick.z * GAS_BRICK + 2 * (n / (VOLUME_SPARSE * VOLUME_SPARSE))) + 0.5f};
+        kiln_volume_find_place(frame, brick, first + i, place);
         for (int c = 0; c < 3; c++)
-            at[c][i] = frame->corner[c] + frame->edges[0][c] * cell[0] +
-                       frame->edges[1][c] * cell[1] + frame->edges[2][c] * cell[2];
+            at[c][i] = place[c];
     }
     return (struct vf3){vf_load(at[0]), vf_load(at[1]), vf_load(at[2])};
 }

@@ -10,20 +10,17 @@
 static void find_sun_parts(const struct kiln_volume_shade *s, const struct kiln_volume_frame *frame,
                            struct kiln_gas_place brick, float parts[VOLUME_PLACES])
 {
-    enum { EDGE = VOLUME_SPARSE, COUNT = EDGE * EDGE * EDGE };
+    enum { COUNT = VOLUME_SPARSE * VOLUME_SPARSE * VOLUME_SPARSE };
     struct kiln_appearance_block balls;
-    float *const places[3] = {balls.position.x, balls.position.y, balls.position.z};
     for (int32_t first = 0; first < VOLUME_PLACES; first += KILN_LANES) {
         for (int32_t i = 0; i < KILN_LANES; i++) {
-            const int32_t n = first + i;
-            const float x = (float)(brick.x * GAS_BRICK + 2 * (n % EDGE)) + 0.5f;
-            const float y = (float)(brick.y * GAS_BRICK + 2 * (n / EDGE % EDGE)) + 0.5f;
-            const float z = (float)(brick.z * GAS_BRICK + 2 * (n / (EDGE * EDGE))) + 0.5f;
-            for (int c = 0; c < 3; c++)
-                places[c][i] = frame->corner[c] + frame->edges[0][c] * x + frame->edges[1][c] * y +
-                               frame->edges[2][c] * z;
+            float at[3];
+            kiln_volume_find_place(frame, brick, first + i, at);
+            balls.position.x[i] = at[0];
+            balls.position.y[i] = at[1];
+            balls.position.z[i] = at[2];
             balls.radius[i] = frame->cell_m;
-            balls.alive[i] = n < COUNT;
+            balls.alive[i] = first + i < COUNT;
         }
         kiln_sun_shade_balls(s->objects, s->simd, &balls, parts + first);
     }

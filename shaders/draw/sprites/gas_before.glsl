@@ -14,14 +14,14 @@
 layout(std140, binding = KILN_BIND_GAS) uniform gas_uniforms { kiln_gas_before_block gas; };
 layout(binding = KILN_UNIT_PROFILES) uniform usamplerBuffer profiles;
 
-/* What gas does to what is behind it. */
+/* Holds what the gas before a fragment does to it. */
 struct gas_before {
     float clear; /* the part of the light that comes through */
     vec3 light;  /* of the gas itself */
     vec3 glow;
 };
 
-/* The numbers of a profile at a place. */
+/* Holds the numbers of a profile at a place. */
 struct gas_node {
     float depth;
     vec3 smoke, flame;

@@ -76,7 +76,7 @@ uint march_ray(inout ray r, float near_m, float far_m)
     return samples;
 }
 
-/* The haze before the gas of a ray. */
+/* Holds the haze before the gas of a ray. */
 struct veil {
     float clear; /* the part of the gas's light that comes through */
     vec3 color;
@@ -189,7 +189,7 @@ void main()
     bool finds_half = inside && (march.cells.w & MARCH_HALFWAY) != 0u;
     uint passed = size.x * size.y + pixel;
     if (finds_half)
-        r.half_depth = MARCH_HALF_OPAQUE - halfway[passed];
+        r.half_depth = VOLUME_HALF_OPAQUE - halfway[passed];
     uint samples = march_ray(r, uintBitsToFloat(places[tile + 2u]), uintBitsToFloat(places[tile + 3u]));
     if (finds_half && samples > 0u) {
         if (r.half_place > 0.0)

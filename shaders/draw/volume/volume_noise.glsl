@@ -29,5 +29,5 @@ float noise_at(vec3 place)
     ends.z = mix(noise_slope(at, uvec3(0, 0, 1), way), noise_slope(at, uvec3(1, 0, 1), way), fade.x);
     ends.w = mix(noise_slope(at, uvec3(0, 1, 1), way), noise_slope(at, uvec3(1, 1, 1), way), fade.x);
     vec2 rows = mix(ends.xz, ends.yw, fade.y);
-    return 1.32 * mix(rows.x, rows.y, fade.z); /* the root of the mean square becomes 1 */
+    return GAS_NOISE_UNIT * mix(rows.x, rows.y, fade.z);
 }

@@ -1,12 +1,10 @@
 /* Samples the blocks of a domain of gas for a step of a ray, and adds the step's light, as
  * lib/draw/volume/volume_sample.h, volume_detail.h and volume_march_simd.c do on the host. */
 
-const float HOTTEST = 1.25; /* as in flame_colors.h */
-
 /* A block in the array of cells: rows and planes have one cell more than a brick has. */
 const uint EDGE = 9u, PLANE = EDGE * EDGE, BLOCK = EDGE * PLANE;
 
-/* The sample of a step. */
+/* Holds the place of a step's sample. */
 struct step_place {
     vec3 at, part;        /* in the window, cells; the way to the next cell */
     uint cell;            /* number of the cell among those of all blocks */
@@ -15,7 +13,7 @@ struct step_place {
     float leaves;         /* where the ray leaves the brick */
 };
 
-/* What gas there is, and the light that reaches it. */
+/* Holds the gas at a sample, and the light that reaches it. */
 struct gas_cell {
     float smoke, flame, temperature, sun, scattered;
     vec3 light, tint;
@@ -116,8 +114,8 @@ void add_detail(ray r, step_place s, inout gas_cell g)
 /* Returns the light of flames by their temperature. */
 vec3 flame_light(float temperature)
 {
-    float most = float(MARCH_FLAME_COLORS);
-    float place = clamp(temperature * (most / HOTTEST), 0.0, most - 0.001);
+    float most = float(FLAME_COLORS);
+    float place = clamp(temperature * (most / FLAME_HOTTEST), 0.0, most - 0.001);
     uint low = uint(place);
     return mix(march.colors[low].rgb, march.colors[low + 1u].rgb, place - float(low));
 }
