@@ -40,7 +40,7 @@ enum {
 #define GRID_ALIKE_SLOPE  0.15f
 
 /* How much what is seen may bend (bend_around), in parts of a lamp or of the sky. */
-#define GRID_BEND     0.02f
+#define GRID_BEND     0.015f
 #define GRID_SKY_BEND 0.01f
 
 /* The least width of the filter that blurs shadows from maps, as a part of a block's extent. */
