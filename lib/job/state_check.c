@@ -301,7 +301,7 @@ static bool check_rides(const struct kiln_particle *records, const struct kiln_p
         const struct kiln_particle particle = records[slots->base + slot];
         if (!particle_has_stopped(particle))
             continue;
-        if (then < KILN_THEN_STOP)
+        if (then < KILN_THEN_STOP && !kiln_family_lies_from_birth(&scene->systems[index]))
             return kiln_error_set(error, KILN_INVALID_INPUT,
                                   "%s: systems.%s, slot %u: found a particle that has stopped, "
                                   "which nothing stops",

@@ -54,6 +54,14 @@ bool kiln_family_inherits(const struct kiln_system *system)
     return system->emit.parent.enabled && (look->color || look->size || look->temperature);
 }
 
+bool kiln_family_lies_from_birth(const struct kiln_system *system)
+{
+    const struct kiln_parent *parent = &system->emit.parent;
+    return kiln_look_lies(&system->look) && parent->enabled &&
+           (parent->event == KILN_EVENT_BOUNCE ||
+            (parent->event == KILN_EVENT_DEATH && parent->impact));
+}
+
 bool kiln_family_is_inherited(const struct kiln_scene *scene, uint32_t system)
 {
     bool any = false;
@@ -359,6 +367,29 @@ static bool settle_slots(struct kiln_reader *reader, const struct kiln_node *roo
     return true;
 }
 
+/* Refuses particles that are drawn on surfaces and never rest on one, or are pushed there. */
+static bool check_lying(struct kiln_reader *reader, const struct kiln_node *root,
+                        const struct kiln_system *system)
+{
+    const struct kiln_collide *collide = &system->collide;
+    const bool from_birth = kiln_family_lies_from_birth(system);
+    char path[128];
+    snprintf(path, sizeof path, "systems.%s.look.facing", system->name);
+    if (!kiln_look_lies(&system->look))
+        return true;
+    if (!from_birth && !(collide->enabled && collide->then >= KILN_THEN_STOP))
+        return kiln_reader_error_at(reader, root, path,
+                                    "no particle rests on a surface: set systems.%s.collide.then "
+                                    "to stop or stick, or let impacts give birth to particles "
+                                    "without a speed (emit.parent.on)",
+                                    system->name);
+    if (from_birth && system->interaction_count > 0)
+        return kiln_reader_error_at(reader, root, path,
+                                    "must not be surface where particles interact, since nothing "
+                                    "pushes a particle that rests from its birth");
+    return true;
+}
+
 bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -370,6 +401,7 @@ bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root
         if (system->emit.parent.enabled)
             ok = check_generations(reader, root, i) && check_births(reader, root, system) &&
                  check_looks(reader, root, i) && settle_slots(reader, root, system);
+        ok = ok && check_lying(reader, root, system);
     }
     return ok;
 }

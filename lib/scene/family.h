@@ -24,6 +24,10 @@ bool kiln_family_travels(const struct kiln_scene *scene, uint32_t system);
 bool kiln_family_inherits(const struct kiln_system *system);
 bool kiln_family_is_inherited(const struct kiln_scene *scene, uint32_t system);
 
+/* Returns whether particles of a system may rest from their birth: they are drawn on surfaces, and
+ * are born of impacts. */
+bool kiln_family_lies_from_birth(const struct kiln_system *system);
+
 /* Fills order[] with all systems, parents before their children. */
 void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_SYSTEMS]);
 

@@ -47,6 +47,13 @@ enum kiln_facing {
     KILN_FACING_VIEWPOINT, /* turned to the eye, up is the world's */
     KILN_FACING_AXIAL,     /* turned to the eye about an axis, which is up */
     KILN_FACING_VELOCITY,  /* parallel to the picture, up is the direction of flight */
+    KILN_FACING_SURFACE,   /* in the plane of the surface that the particle rests on */
+    KILN_FACING_NORMAL,    /* in a plane of the world */
+};
+
+struct kiln_look_facing {
+    enum kiln_facing way;
+    struct kiln_value3 normal; /* of KILN_FACING_NORMAL; need not be normalised, not zero */
 };
 
 enum kiln_line_to {
@@ -92,7 +99,7 @@ struct kiln_look {
     struct kiln_value size;  /* m: edge of the billboard */
     struct kiln_range scale; /* factor on size, random for each particle */
     enum kiln_shape shape;
-    enum kiln_facing facing;      /* of a billboard: how it faces the camera */
+    struct kiln_look_facing facing; /* of a billboard: how it faces the camera */
     struct kiln_value3 axis;      /* axis of an axial billboard; need not be normalised, not zero */
     struct kiln_value point_size; /* px: diameter of a point; 0: size, in metres */
     bool point_round;             /* true: a disc; false: a square */
@@ -133,6 +140,12 @@ static inline bool kiln_color_is_source(const struct kiln_value3 *color)
 static inline bool kiln_look_color_is_source(const struct kiln_look *look)
 {
     return kiln_color_is_source(&look->color);
+}
+
+/* Returns whether particles are drawn on the surfaces that they rest on. */
+static inline bool kiln_look_lies(const struct kiln_look *look)
+{
+    return look->shape == KILN_SHAPE_BILLBOARD && look->facing.way == KILN_FACING_SURFACE;
 }
 
 /* Returns whether particles are solid, with other particles in front of or behind them. */

@@ -51,6 +51,7 @@ extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100}, or a
 extern const struct kiln_option_type kiln_type_counts;       /* 20, or [20, 30] */
 extern const struct kiln_option_type kiln_type_attach;       /* a node's name, or none */
 extern const struct kiln_option_type kiln_type_place;        /* a vector, or {path: {...}} */
+extern const struct kiln_option_type kiln_type_facing;       /* a word, or {normal: [0, 1, 0]} */
 extern const struct kiln_option_type kiln_type_points;       /* [[0, 0, 0], [1, 0, 0]] */
 extern const struct kiln_option_type kiln_type_demitter;     /* {min, max, attach} */
 extern const struct kiln_option_type kiln_type_of;           /* forces of a baked wind */
@@ -72,6 +73,7 @@ typedef const char *kiln_fills_name;
 typedef const char *kiln_fills_system;
 typedef const char *kiln_fills_domain;
 typedef const char *kiln_fills_object;
+typedef struct kiln_look_facing kiln_fills_facing;
 typedef struct kiln_attach kiln_fills_attach;
 typedef struct kiln_node_position kiln_fills_place;
 typedef struct kiln_path_points kiln_fills_points;

@@ -19,10 +19,27 @@ static const char *const shapes[] = {
 };
 
 static const char *const facings[] = {
-    [KILN_FACING_SCREEN] = "screen",       [KILN_FACING_VIEWPLANE] = "viewplane",
-    [KILN_FACING_VIEWPOINT] = "viewpoint", [KILN_FACING_AXIAL] = "axial",
-    [KILN_FACING_VELOCITY] = "velocity",   NULL,
+    [KILN_FACING_SCREEN] = "screen",
+    [KILN_FACING_VIEWPLANE] = "viewplane",
+    [KILN_FACING_VIEWPOINT] = "viewpoint",
+    [KILN_FACING_AXIAL] = "axial",
+    [KILN_FACING_VELOCITY] = "velocity",
+    [KILN_FACING_SURFACE] = "surface",
+    NULL,
 };
+
+#undef FILLS
+#define FILLS struct kiln_look_facing
+
+TABLE(facing_rows) = {
+    VECTOR(LOOK, "normal", normal, KILN_PLAIN, -FAR, FAR, TIME(110), NULL,
+           "Normal of the plane in the world that billboards lie in, of any length but 0: "
+           "[0, 1, 0] is the ground's."),
+    END,
+};
+
+#undef FILLS
+#define FILLS struct kiln_look
 
 static const char *const line_ends[] = {
     [KILN_LINE_VELOCITY] = "velocity",
@@ -150,13 +167,15 @@ PUBLIC_TABLE(kiln_options_look) = {
         "`billboard` draws the texture on a quad. `point` and `line` draw a plain colour without a "
         "texture. `sphere` and `mesh` are opaque, lit like the backdrop, and become smaller where "
         "opacity and fade would make them transparent."),
-    CHOICE(
-        LOOK, "facing", facing, facings, "screen",
-        "How a billboard is turned. `screen`, `viewplane` and `velocity` are parallel to the "
-        "picture. `screen` is upright in the picture, `viewplane` is upright in the world, and "
-        "`velocity` has its upper edge towards the velocity. `viewpoint` is turned to the eye "
-        "and upright in the world. `axial` turns about `axis` alone, as far towards the eye as it "
-        "can."),
+    {ROW(IF_IT_LIES, "facing", facing, facing, "screen",
+         "How a billboard is turned. `screen`, `viewplane` and `velocity` are parallel to the "
+         "picture. `screen` is upright in the picture, `viewplane` is upright in the world, and "
+         "`velocity` has its upper edge towards the velocity. `viewpoint` is turned to the eye "
+         "and upright in the world. `axial` turns about `axis` alone, as far towards the eye as it "
+         "can. With a normal, it lies in that plane of the world, such as the ground. `surface` "
+         "lays it on the surface that its particle rests on, by `collide.then` or because it was "
+         "born there of an impact without a speed; in flight it is as with `screen`."),
+     .choices = facings, .members = facing_rows},
     VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME(30), "[0, 1, 0]",
            "Axis that axial billboards turn about, of any length but 0."),
     GROUP(LOOK, "point", point, "How points look."),

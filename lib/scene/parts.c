@@ -65,6 +65,14 @@ unsigned kiln_row_if_it_paints(const void *scene, const void *look)
     return kiln_scene_paints(scene, system_of(scene, look)) ? BOTH : NEITHER;
 }
 
+/* Particles that rest have the normal of their surface in their state, where they are drawn on it.
+ */
+unsigned kiln_row_if_it_lies(const void *scene, const void *look)
+{
+    (void)scene;
+    return ((const struct kiln_look *)look)->facing.way == KILN_FACING_SURFACE ? BOTH : NEITHER;
+}
+
 static bool any_collides(const struct kiln_scene *scene)
 {
     bool any = false;

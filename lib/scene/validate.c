@@ -235,6 +235,10 @@ static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root
     snprintf(path, sizeof path, "systems.%s.look.axis", system->name);
     if (!at_all_keys(kiln_reader_scene(reader), &axis, 1, is_not_zero))
         return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
+    const struct kiln_value3 *normal = &look->facing.normal;
+    snprintf(path, sizeof path, "systems.%s.look.facing.normal", system->name);
+    if (!at_all_keys(kiln_reader_scene(reader), &normal, 1, is_not_zero))
+        return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
     snprintf(path, sizeof path, "systems.%s.look.blend", system->name);
     if (kiln_look_is_opaque(look) && look->blend != KILN_BLEND_ALPHA)
         return kiln_reader_error_at(reader, root, path,

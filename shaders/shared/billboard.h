@@ -55,6 +55,66 @@ REAL_FN S(billboard_plane) billboard_plane_facing(uint facing, real3 upward, rea
     return billboard_plane_of(sideways, real3_cross(normal, sideways), normal);
 }
 
+/* Returns whether billboards with this facing lie in a plane of the world: LOOK_NORMAL all of them,
+ * LOOK_SURFACE those that rest on a surface. */
+FN bool billboard_is_aligned(uint facing)
+{
+    return facing == LOOK_NORMAL || facing == LOOK_SURFACE;
+}
+
+REAL_FN real3 billboard_turned(real3 v, float4 x, float4 y, float4 z)
+{
+    return REAL3(real3_dot_all(v, x), real3_dot_all(v, y), real3_dot_all(v, z));
+}
+
+/* Returns a plane of the world, whose normal is turned to the eye. Up is the world's up as far as
+ * it lies in the plane, or -z in a plane within 45 degrees of level, so that a picture on the
+ * ground stands upright for a viewer who looks along -z. normal: a unit vector in the world; x, y,
+ * z: the rows that turn directions of the world to view space. */
+REAL_FN S(billboard_plane) billboard_plane_across(real3 normal, real3 center, float4 x, float4 y,
+                                                  float4 z)
+{
+    real zero = real_all(0.0f), one = real_all(1.0f);
+    truth level = real_abs(normal.y) > 0.70710678f;
+    real3 upward = real3_select(level, REAL3(zero, zero, -one), REAL3(zero, one, zero));
+    upward = real3_add_scaled(upward, normal, -real3_dot(upward, normal));
+    upward = real3_scale(upward, real_rsqrt(real3_dot(upward, upward)));
+    real3 to_view = billboard_turned(normal, x, y, z);
+    real side = real_select(real3_dot(to_view, center) > 0.0f, -one, one);
+    return billboard_plane_of(billboard_turned(real3_cross(upward, normal), x, y, z),
+                              billboard_turned(upward, x, y, z), real3_scale(to_view, side));
+}
+
+/* How a billboard in a plane of the world fades: as billboard_lies_on takes it. */
+struct billboard_lying {
+    real soft, near;
+};
+
+/* An aligned billboard with hard edges still fades, over this part of its size: where it lies in a
+ * surface, rounding would decide which of its pixels are seen. */
+#define BILLBOARD_LEAST_FADE 0.02f
+
+/* soft: look.soft, 1/m. The result's `soft` is below 0, which marks aligned billboards. */
+REAL_FN S(billboard_lying) billboard_lying_of(S(billboard_plane) plane, real3 center, real soft,
+                                              real half_size)
+{
+    real reach = real_max(half_size, real_all(1e-9f));
+    real away = real_abs(real3_dot(plane.normal, center));
+    real hard = (0.5f / BILLBOARD_LEAST_FADE) / reach;
+    S(billboard_lying) lying;
+    lying.soft = -real_max(away * real_select(soft > 0.0f, soft, hard), real_all(1e-20f));
+    lying.near = 1.0f / reach;
+    return lying;
+}
+
+/* Returns the factor on the edge of a billboard by which its cells are chosen: the geometric mean
+ * of how it is shortened along and across its slant. */
+REAL_FN real billboard_slant(S(billboard_plane) plane, real3 center)
+{
+    real away = real_abs(real3_dot(plane.normal, center));
+    return real_sqrt(away * real_rsqrt(real3_dot(center, center)));
+}
+
 /* The upward edge of a billboard: its unit direction along the plane's right and up, and half of
  * its length, m. */
 struct billboard_edge {

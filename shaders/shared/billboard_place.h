@@ -192,6 +192,25 @@ REAL_FN real edge_cover(real half_edge, real from_middle, real pixels)
     return real_clamp01((half_edge - real_abs(from_middle)) * pixels + 0.5f);
 }
 
+/* ---- billboards that lie on surfaces --------------------------------------------------------- */
+
+/* Returns the factor on the opacity of a billboard in a plane of the world where it meets the
+ * scene. Others fade towards a surface behind them (Heinz 2019, equation 3.3); so would this one on
+ * the very surface that it lies on. Therefore it is a sheet that covers whatever is at its plane or
+ * behind it, and fades over 1 / look.soft with the height of the scene above the plane, seen along
+ * its normal: neither can its surface cut it, nor does rounding matter where both coincide, and it
+ * laps up walls that stand in it. What is before it by more than its size hides it, whatever the
+ * height is.
+ *
+ * soft: look.soft times the distance of the plane from the eye, so that soft / depth is the change
+ * per metre of depth at this pixel; near: 1 / half of its edge, 1/m; beyond: by how much the scene
+ * is farther away than the billboard, m; depth: of the billboard, m. */
+REAL_FN real billboard_lies_on(real soft, real near, real beyond, real depth)
+{
+    real above = 1.0f + beyond * soft / depth, before = 2.0f + beyond * near;
+    return real_clamp01(real_min(above, before));
+}
+
 /* ---- points and lines ------------------------------------------------------------------------ */
 
 /* Half the width of a point or a line, px, and a factor for its opacity. */

@@ -182,6 +182,12 @@ struct kiln_force_params {
 #define THEN_STOP   2u
 #define THEN_STICK  3u
 
+/* What records of a system keep: of the dead serial and birth, by which children know their looks;
+ * of those that rest the normal of their surface, by which they are drawn, in place of a heading.
+ */
+#define FAMILY_KEEPS_REMAINS 1u
+#define FAMILY_KEEPS_NORMALS 2u
+
 /* How a system is related to others: see family.h. */
 struct kiln_family_params {
     uint born_of;
@@ -198,7 +204,7 @@ struct kiln_family_params {
     uint ways;        /* row of its first way among spins and ways */
     uint parent_ways; /* that of the parent system */
     float per_metre;  /* way: children a metre of the parent's way */
-    uint keeps;       /* 1: the dead keep serial and birth, by which children know their looks */
+    uint keeps;       /* FAMILY_KEEPS_* */
     S(kiln_value) rate;   /* trail: children a second of the parent's life */
     S(kiln_value) chance; /* of an impact to do what `then` says, and not to let it bounce */
 };

@@ -19,7 +19,7 @@
 #define KILN_LOOK_BLOOM  4 /* bloom weights, rgb; thickness in units of the size */
 #define KILN_LOOK_SPREAD 5 /* scale, least and most; mean spin so far, least and most, rad/s */
 #define KILN_LOOK_TURN   6 /* rotation, least and most, rad; point, line width, px */
-#define KILN_LOOK_AXIS   7 /* unit vector in the world; unused */
+#define KILN_LOOK_AXIS   7 /* axis or normal, unit vector in the world; unused */
 #define KILN_LOOK_OTHER  8 /* second colour of a sphere's pattern, rgb; lit */
 #define KILN_LOOK_ROWS   9
 
@@ -56,6 +56,8 @@
 #define LOOK_VIEWPOINT 2u
 #define LOOK_AXIAL     3u
 #define LOOK_VELOCITY  4u
+#define LOOK_SURFACE   5u
+#define LOOK_NORMAL    6u
 
 /* Bits of `flags.y` of a look. */
 #define LOOK_RANDOM_START 1u /* each particle starts at a cell of its own */

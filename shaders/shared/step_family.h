@@ -76,8 +76,11 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     return t;
 }
 
-/* Whether impacts of the system stop particles, and whether these then ride what they hit. */
+/* Whether impacts of the system stop particles, and whether these then ride what they hit. Where
+ * records keep normals, particles may rest from their birth. */
 #define STEP_STOPS (STEP(family.then) >= THEN_STOP)
+#define STEP_LIES  ((STEP(family.keeps) & FAMILY_KEEPS_NORMALS) != 0u)
+#define STEP_RESTS (STEP_STOPS || STEP_LIES)
 #define STEP_RIDES (USES(USES_THEN, THEN_STICK) && STEP(family.then) == THEN_STICK)
 
 /* Returns whether the first impact of this step ends a particle, or stops it. */
@@ -109,8 +112,8 @@ FN S(step_way) step_rest(SIM_PARAM S(kiln_particle) p, float until)
         way.end.position = ride(motion, 0.0f, until, way.start.position);
     }
     way.first = collide_no_touch();
-    way.lost = STEP_RIDES && (!step_is_sane(way.end.position) || !step_is_sane(way.end.velocity) ||
-                              step_is_removed(SIM way.end.position));
+    way.lost = !step_is_sane(way.end.position) || !step_is_sane(way.end.velocity) ||
+               step_is_removed(SIM way.end.position);
     way.stops = false;
     return way;
 }
@@ -121,7 +124,7 @@ FN S(step_way) step_move_or_stop(SIM_PARAM S(kiln_particle) p, S(step_push) push
                                  float life_s, float until)
 {
     EXACT S(step_way) way;
-    if (STEP_STOPS && particle_has_stopped(p)) {
+    if (STEP_RESTS && particle_has_stopped(p)) {
         way = step_rest(SIM p, until);
         return way;
     }
@@ -149,7 +152,10 @@ FN S(kiln_particle) step_at_rest(SIM_PARAM S(kiln_particle) p, S(step_way) way)
         uint sixty_fourths = family_sixty_fourths(way.first.since, 0u);
         y.velocity_birth.x = (STEP(step) << KILN_REST_STEP_SHIFT) | sixty_fourths;
         y.velocity_birth.y = STEP_RIDES ? way.first.number + 1u : 0u;
-        y.velocity_birth.z = heading_pack(particle_velocity(p));
+        EXACT float3 heading = particle_velocity(p);
+        if (STEP_LIES)
+            heading = collide_normal_of(way.first.face);
+        y.velocity_birth.z = heading_pack(heading);
         y.velocity_birth.w |= KILN_PARTICLE_STOPPED;
     }
     if (STEP_RIDES && y.velocity_birth.y != 0u) {
@@ -191,7 +197,7 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
     }
     if (!ends && !dies) {
         r.particle = step_with_motion(p, way.end.position, way.end.velocity);
-        if (STEP_STOPS && (way.stops || particle_has_stopped(p)))
+        if (STEP_RESTS && (way.stops || particle_has_stopped(p)))
             r.particle = step_at_rest(SIM p, way);
     }
     if (!traced)
@@ -210,6 +216,25 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
         events |= TRACE_FATAL;
     r.trace = step_trace(SIM p, way, events, life_s, progress);
     return r;
+}
+
+/* Returns a child that rests from its birth where its parent met a surface, if it is drawn there
+ * and has no speed; any other child as it is. sixty_fourths: of this step before the birth. */
+FN S(kiln_particle) step_child_at_rest(SIM_PARAM S(kiln_particle) p, S(kiln_trace) parent,
+                                       uint sixty_fourths)
+{
+    bool of_impact =
+        STEP(family.born_of) == BORN_OF_BOUNCE || (parent.serial_event.y & TRACE_FATAL) != 0u;
+    EXACT float3 velocity = particle_velocity(p);
+    bool moves = velocity.x != 0.0f || velocity.y != 0.0f || velocity.z != 0.0f;
+    if (!STEP_LIES || FAMILY_TRAILS || !of_impact || moves)
+        return p;
+    S(kiln_particle) y = p;
+    y.velocity_birth.x = (STEP(step) << KILN_REST_STEP_SHIFT) | sixty_fourths;
+    y.velocity_birth.y = 0u;
+    y.velocity_birth.z = heading_pack(trace_normal(parent));
+    y.velocity_birth.w |= KILN_PARTICLE_STOPPED;
+    return y;
 }
 
 /* If the event from which this slot's child is born happens in the parent's step, returns the new
@@ -234,7 +259,8 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
     EXACT S(emit_state) at = family_parent_at(SIM parent, since);
     EXACT float3 axis = family_axis(SIM parent, at.velocity);
     EXACT S(emit_state) born = emit_child(SIM stream, p.position_serial.w, born_s, at, axis);
-    return step_with_motion(p, born.position, born.velocity);
+    p = step_with_motion(p, born.position, born.velocity);
+    return step_child_at_rest(SIM p, parent, sixty_fourths);
 }
 
 /* Returns the content of a slot after this step, and the slot's trace, which the caller stores if
@@ -256,7 +282,7 @@ FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(
         EXACT S(step_push) push = push_of(SIM slot);
         r = step_family_particle(SIM p, push);
     }
-    if (STEP(family.keeps) != 0u && !particle_is_alive(r.particle))
+    if ((STEP(family.keeps) & FAMILY_KEEPS_REMAINS) != 0u && !particle_is_alive(r.particle))
         r.particle = particle_remains(p);
 #if FAMILY_HAS_WAYS
     if (STEP(family.travels) != 0u && (r.trace.serial_event.y & TRACE_ALIVE) != 0u)

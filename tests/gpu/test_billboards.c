@@ -161,6 +161,70 @@ static void billboards_face_as_defined(void **state)
     }
 }
 
+/* Returns the factor on the opacity of a billboard in a plane of the world, 1.2 m large, where the
+ * scene has a depth: it fades with the height of the scene above the plane, and where that is
+ * nearer by the billboard's size. */
+static double lying_fade(const struct drawing *d, const struct billboard *b, vec ray, double depth,
+                         double scene)
+{
+    const vec hit = vec_add(drawing_eye(d), ray, scene);
+    const vec to_eye = vec_add(drawing_eye(d), b->center, -1);
+    const double side = vec_dot(to_eye, b->normal) < 0 ? -1 : 1;
+    const double above = side * vec_dot(vec_add(hit, b->center, -1), b->normal);
+    return fmin(fmax(fmin(1 - above * SOFT, 2 - (depth - scene) / 0.6), 0), 1);
+}
+
+/* Billboards with a normal lie in that plane of the world. They are seen on what is in their plane
+ * and behind it, and fade on what stands out of it. Each wall is a depth of the scene, m. */
+static void billboards_lie_in_a_plane_of_the_world(void **state)
+{
+    static const double walls[] = {10, 3.45, 3.3, 3.1, 2.2};
+    static const vec normals[] = {{0, 1, 0}, {0.2, -1, 0.3}, {0.5, 0.2, 2}, {-1, 0.6, 0.2}};
+    static const char *const words[] = {"[0, 1, 0]", "[0.2, -1, 0.3]", "[0.5, 0.2, 2]",
+                                        "[-1, 0.6, 0.2]"};
+    for (size_t i = 0; i < 4; i++) {
+        char facing[96];
+        snprintf(facing, sizeof facing, "systems.a.look.facing={normal: %s}", words[i]);
+        const char *overrides[] = {facing, "systems.b.enabled=false"};
+        struct drawing d;
+        drawing_init(&d, *state, SCENE, overrides, 2);
+        struct kiln_particle particle = drawing_particle(0, POSITION, VELOCITY);
+        drawing_place(&d, &particle, 1, STEP);
+        struct billboard b = {.center = vec_of(POSITION), .normal = vec_unit(normals[i])};
+        const vec upward = i < 2 ? (vec){0, 0, -1} : (vec){0, 1, 0};
+        b.up = vec_unit(vec_add(upward, b.normal, -vec_dot(upward, b.normal)));
+        b.right = vec_cross(b.up, b.normal);
+        b.mirrored = is_mirrored(&d, 0);
+        turn_and_scale(&b, 0, 0.6, 0.6);
+        int faded = 0, whole = 0;
+        for (size_t w = 0; w < sizeof walls / sizeof *walls; w++) {
+            drawing_run(&d, 1, (float)walls[w]);
+            for (int p = 0; p < PIXELS; p++) {
+                const float *pixel = d.color.host + 4 * p;
+                vec ray = drawing_ray(&d, p % WIDTH + 0.5, p / WIDTH + 0.5);
+                vec to_center = vec_add(b.center, drawing_eye(&d), -1);
+                double depth = vec_dot(to_center, b.normal) / vec_dot(ray, b.normal);
+                vec at = vec_add(vec_add((vec){0}, ray, depth), to_center, -1);
+                double x = vec_dot(at, b.right) / 0.36, y = vec_dot(at, b.up) / 0.36;
+                double edge = fmax(fabs(x), fabs(y));
+                if (fabs(edge - 1) < 0.03)
+                    continue;
+                double alpha = edge < 1 ? lying_fade(&d, &b, ray, depth, walls[w]) : 0;
+                if (fabs((double)pixel[3] - alpha) >= 2e-3)
+                    fail_msg("normal %zu, wall %g m, pixel %d, %d: alpha %g, not %g", i, walls[w],
+                             p % WIDTH, p / WIDTH, (double)pixel[3], alpha);
+                faded += alpha > 0.01 && alpha < 0.99;
+                whole += alpha == 1;
+                if (edge < 0.9 && alpha > 0.1)
+                    assert_true(fabs((double)(pixel[0] / pixel[3]) -
+                                     (0.5 + 0.5 * (b.mirrored ? -x : x))) < 0.03);
+            }
+        }
+        assert_true(faded > 100 && whole > 1000);
+        drawing_finish(&d);
+    }
+}
+
 /* A camera that looks along the up direction of a billboard leaves the billboard's right direction
  * undefined. The billboard must then take the picture's right direction, and not vanish. */
 static void a_billboard_seen_from_above_does_not_vanish(void **state)
@@ -334,6 +398,7 @@ int main(int argc, char **argv)
     (void)argc;
     static const struct CMUnitTest tests[] = {
         test_on_device(billboards_face_as_defined),
+        test_on_device(billboards_lie_in_a_plane_of_the_world),
         test_on_device(a_billboard_seen_from_above_does_not_vanish),
         test_on_device(points_have_their_size),
         test_on_device(lines_lie_along_the_velocity),

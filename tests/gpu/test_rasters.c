@@ -96,6 +96,36 @@ static const struct text HAZY = {
     "    emit: {bursts: {0 s: 60}, life: 10 s, from: {box: {size: [6, 3, 16]}}}\n"
     "    look: {shape: line, stretch: 0.3 s, line: {width: 3 px}, color: [0.1, 1, 0.1]}\n"};
 
+/* Billboards that lie on a floor, on a slope and on walls, in and on which objects stand; seen from
+ * behind, too; and drops that splash on a ball and a floor and stay there. */
+static const struct text LYING = {
+    "lying",
+    "kiln: 1\n"
+    "simulation: {rate: 30}\n"
+    "output: {frames: 4, fps: 10}\n"
+    "camera: {position: [0, 1.2, 6], target: [0, 0.5, 0]}\n"
+    "backdrop: {sun: {direction: [0.4, 0.7, 0.6]}, floor: {height: 0 m}, objects: [\n"
+    "  box: {center: [1.6, 0.5, -0.6], size: [1, 1, 1], rotation: [0, 30 deg, 0]},\n"
+    "  sphere: {center: [-1.5, 0.6, 0.3], radius: 0.6 m}]}\n"
+    "systems:\n"
+    "  ground:\n"
+    "    emit: {bursts: {0 s: 60}, life: 10 s, speed: 0, from: {box: {size: [5, 0.05, 3]}}}\n"
+    "    look: {atlas: \"builtin:smoke\", facing: {normal: [0, 1, 0]}, size: 1.2 m, soft: 3, lit: "
+    "1}\n"
+    "  slope:\n"
+    "    emit: {bursts: {0 s: 20}, life: 10 s, speed: 0.2, from: {box: {size: [4, 2, 3]}}}\n"
+    "    look: {atlas: \"builtin:star\", blend: add, facing: {normal: [-1, 2, -3]}, size: 0.5 m,\n"
+    "           soft: 0, spin: 90 deg/s, stretch: 1 s}\n"
+    "  drops:\n"
+    "    emit: {rate: 300, life: 2 s, speed: [1, 2], from: {box: {origin: [0, 2, 0],\n"
+    "           size: [4, 0.1, 2.5], direction: [0, -1, 0], angle: 20 deg}}}\n"
+    "    forces: [gravity: {}]\n"
+    "    collide: {then: stop}\n"
+    "    look: {atlas: \"builtin:drop\", facing: surface, size: 0.2 m, lit: 1}\n"
+    "  rings:\n"
+    "    emit: {parent: {system: drops, on: {bounce: 1}}, life: 1 s, speed: 0, inherit: 0}\n"
+    "    look: {atlas: \"builtin:splash\", facing: surface, size: 0.4 m, soft: 8, lit: 1}\n"};
+
 /* So many particles that raster=cpu blends pairs of flipbook cells before it draws
  * (lib/draw/sprites/cells.h). The particles are about 8 to 24 pixels wide and of all ages, so that
  * it blends cells of several levels of detail, with motion vectors, at many phases. */
@@ -443,6 +473,12 @@ static void techniques_agree_on_mixed_cells(void **state)
     assert_true(agree_on(test_device(), NULL, &MIXED));
 }
 
+static void techniques_agree_on_what_lies(void **state)
+{
+    (void)state;
+    assert_true(agree_on(test_device(), NULL, &LYING));
+}
+
 static void techniques_agree_on_values(void **state)
 {
     (void)state;
@@ -459,6 +495,7 @@ int main(int argc, char **argv)
 {
     static const struct CMUnitTest inherited = test_on_device(techniques_agree_on_parents_looks);
     static const struct CMUnitTest values = test_on_device(techniques_agree_on_values);
+    static const struct CMUnitTest lying = test_on_device(techniques_agree_on_what_lies);
     static const struct CMUnitTest faint = test_on_device(techniques_agree_on_what_is_faint);
     static const struct CMUnitTest hazy = test_on_device(techniques_agree_in_haze);
     static const struct CMUnitTest mixed = test_on_device(techniques_agree_on_mixed_cells);
@@ -467,6 +504,7 @@ int main(int argc, char **argv)
     test_list_add_full(&list, &faint, 1);
     test_list_add_full(&list, &mixed, 1);
     test_list_add(&list, &values, 1);
+    test_list_add(&list, &lying, 1);
     test_list_add(&list, &inherited, 1);
     test_list_add_full(&list, &hazy, 1);
     test_list_add_scenes(&list, scene, 7);

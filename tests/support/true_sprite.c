@@ -8,6 +8,7 @@
 #include "draw/light/smoke_shadow.h"
 #include "shared/billboard_place.h"
 #include "shared/derived.h"
+#include "shared/heading.h"
 #include "support/cmocka.h"
 
 /* ---- light ----------------------------------------------------------------------------------- */
@@ -365,9 +366,10 @@ struct true_subject {
     const struct kiln_draw_look *look;
     uint32_t stream;
     float life; /* part of its life that has passed, 0 to 1 */
-    double age, row[KILN_LOOK_ROWS][4];
+    double age, turned, row[KILN_LOOK_ROWS][4];
     double scale, half_size, diameter_px;
-    dvec position, moving, axes[3];
+    dvec position, moving, heading, axes[3];
+    bool rests;
 };
 
 /* Returns the particle's random number for a purpose (RANDOM_*), between `least` and `most`. */
@@ -385,10 +387,15 @@ static void true_turn(const struct true_scene *t, struct true_subject *p, struct
     double angle = true_between(p, RANDOM_ROTATION, turn[0], turn[1]);
     double spin = true_between(p, RANDOM_SPIN, spread[2], spread[3]);
     bool backwards = random_unit(p->stream, RANDOM_SPIN + 1u) < 0.5f;
-    angle += (backwards ? -spin : spin) * p->age;
+    angle += (backwards ? -spin : spin) * p->turned;
     const uint32_t facing = p->look->form.y;
     dvec upward = facing == LOOK_AXIAL ? (dvec){axis[0], axis[1], axis[2]} : (dvec){0, 1, 0};
-    true_plane(t, facing, upward, s->center, p->axes);
+    if (p->look->form.x == 0 && facing == LOOK_NORMAL)
+        true_plane_across(t, (dvec){axis[0], axis[1], axis[2]}, s, p->axes);
+    else if (p->look->form.x == 0 && facing == LOOK_SURFACE && p->rests)
+        true_plane_across(t, p->heading, s, p->axes);
+    else
+        true_plane(t, facing == LOOK_SURFACE ? LOOK_SCREEN : facing, upward, s->center, p->axes);
     const double in_plane[2] = {dvec_dot(p->moving, p->axes[0]), dvec_dot(p->moving, p->axes[1])};
     double up[2];
     double longer = true_up(angle, p->row[KILN_LOOK_SHAPE][1], in_plane, facing, up);
@@ -416,6 +423,9 @@ static void true_read(const struct true_scene *t, uint32_t entry,
         true_look(t, KILN_ENTRY_SYSTEM(entry), i, record, p->row[i]);
     p->position = dvec_of3(particle_position(*record));
     p->moving = dvec_turn(view, dvec_of3(particle_velocity(*record)));
+    p->rests = particle_has_stopped(*record);
+    p->heading = dvec_of3(particle_heading(*record));
+    p->turned = (double)particle_turned_s(*record, age_s, view->clock.y);
 }
 
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
@@ -437,12 +447,15 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
     p.scale = true_between(&p, RANDOM_SCALE, spread[0], spread[1]);
     p.half_size = 0.5 * shape[0] * p.scale;
     p.diameter_px = 2 * p.half_size * pixels_per_m;
+    s->half_size = p.half_size;
+    s->slant = 1;
     true_turn(t, &p, s);
     true_color(t, s, (double const(*)[4])p.row, p.position);
     s->bulge = p.half_size * p.row[KILN_LOOK_BLOOM][3];
     s->distance = sqrt(dvec_dot(s->center, s->center));
     true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
-                      p.diameter_px, 2 * sqrt(dvec_dot(s->up, s->up)) * pixels_per_m);
+                      p.diameter_px * s->slant,
+                      2 * sqrt(dvec_dot(s->up, s->up)) * pixels_per_m * s->slant);
     true_light(t, s, p.row[KILN_LOOK_COVER], KILN_ENTRY_SLOT(entry), p.position, p.axes);
     if (p.look->form.x != 0) {
         bool line = p.look->form.x == LOOK_LINE;
@@ -527,17 +540,6 @@ static void true_cell(const struct true_scene *t, const struct true_sprite *s,
                                      at->v + (1 - s->part) * way[1], false);
         cell[c] = one + (other - one) * s->part;
     }
-}
-
-/* Returns the soft-particle fade: the factor on a sprite's opacity close to a surface of the scene
- * (Heinz 2019, equation 3.3). depth, scene: view depths of the sprite and of the scene, m. */
-static double true_soft(const struct true_sprite *s, double depth, double scene)
-{
-    if (s->soft <= 0)
-        return depth <= scene;
-    if (s->literal)
-        return depth <= scene ? fabs(scene - s->distance) * s->soft : 0;
-    return fmin(fmax((scene - depth) * s->soft, 0), 1);
 }
 
 /* Returns which part of a pixel, 0 to 1, lies within the filtered edges of a billboard. */

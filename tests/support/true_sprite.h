@@ -36,6 +36,11 @@ struct true_sprite {
      * on the light that goes to the bloom; bulge: half of the sprite's thickness, m; veil: the haze
      * before the sprite where it is opaque. */
     double hot[3], cool[3], color[3], light[4][3], bloom[3], bulge, veil[3];
+    /* lies: a billboard in a plane of the world; away: that plane's distance from the eye, m;
+     * slant: how much shorter it is seen, as the mean of both directions; half_size: half its edge,
+     * m. */
+    bool lies;
+    double away, slant, half_size;
     /* Index 0 is for a billboard's width along right, index 1 along up. narrowed: the true width
      * divided by the drawn width, below 1 for a width of less than a pixel; rim: the drawn width,
      * px, if the edges are filtered, or 0 for hard edges. */
@@ -55,6 +60,15 @@ struct true_sprite {
 struct true_place {
     double u, v, depth;
 };
+
+/* Finds the axes (right, up and normal, view space) of a billboard that lies in a plane of the
+ * world with the normal, and fills in what follows from that. The sprite's centre is set. */
+void true_plane_across(const struct true_scene *t, dvec normal, struct true_sprite *s,
+                       dvec axes[3]);
+
+/* Returns the soft-particle fade: the factor on a sprite's opacity close to a surface of the scene
+ * (Heinz 2019, equation 3.3). depth, scene: view depths of the sprite and of the scene, m. */
+double true_soft(const struct true_sprite *s, double depth, double scene);
 
 /* Makes the sprite of a particle. Returns false if it is transparent or nearer than the near plane.
  * entry: the particle's draw entry. */

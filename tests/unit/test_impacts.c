@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "shared/heading.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
 #include "support/simulation.h"
@@ -172,6 +173,90 @@ static void numbers_of_children_are_drawn(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* Checks that a vector is a particle's heading. Faces of impacts have normals of three times ten
+ * bits, so it is right to 2e-3. */
+static void expect_heading(struct kiln_particle p, float3 expected)
+{
+    const float3 heading = particle_heading(p);
+    const float3 off = float3_sub(heading, expected);
+    assert_true(particle_has_stopped(p));
+    if (!(float3_length(off) < 2e-3f))
+        fail_msg("heading %g, %g, %g instead of %g, %g, %g", (double)heading.x, (double)heading.y,
+                 (double)heading.z, (double)expected.x, (double)expected.y, (double)expected.z);
+}
+
+/* Particles that are drawn on surfaces keep the normal of theirs instead of how they flew: that of
+ * a ball, of which they cover the upper half, and of the floor. Their state is else as without. */
+static void what_lies_keeps_its_normal(void **state)
+{
+    static const char *const as_they_fly[] = {"backdrop.objects=[sphere: {center: [0.5, 0.3, 0], "
+                                              "radius: 0.2 m}]",
+                                              NULL};
+    static const char *const lying[] = {as_they_fly[0], "systems.a.look.facing=surface", NULL};
+    (void)state;
+    struct kiln_particle before[COUNT];
+    for (int lies = 0; lies < 2; lies++) {
+        struct kiln_scene *scene = load_scene(SCENE, lies ? lying : as_they_fly);
+        struct simulation run;
+        simulation_start(&run, scene, NULL, 2);
+        simulation_run(&run, 40);
+        const struct kiln_particle *records = simulation_records(&run);
+        int on_ball = 0;
+        for (int i = 0; i < COUNT; i++) {
+            const float3 place = particle_position(records[i]);
+            const float3 out = float3_sub(place, FLOAT3(0.5f, 0.3f, 0.0f));
+            const bool ball = float3_length(out) < 0.21f;
+            on_ball += ball;
+            if (lies) {
+                expect_heading(records[i], ball ? float3_normalize(out, out) : FLOAT3(0, 1, 0));
+                assert_memory_equal(&before[i].position_serial, &records[i].position_serial, 16);
+                assert_int_equal(before[i].velocity_birth.x, records[i].velocity_birth.x);
+            }
+        }
+        assert_in_range(on_ball, 100, COUNT - 100);
+        memcpy(before, records, sizeof before);
+        simulation_end(&run);
+        kiln_scene_destroy(&scene);
+    }
+}
+
+/* Children of impacts without a speed rest on what their parent has met, whatever the forces are;
+ * those with a speed fly, and so do all of those that are not drawn there. */
+static void children_of_impacts_rest_from_birth(void **state)
+{
+    static const char *const children[] = {
+        "systems.b={emit: {parent: {system: a, on: {bounce: 1}}, life: 9 s, speed: 0, inherit: 0}, "
+        "forces: [gravity: [0, -8, 0]], look: {facing: surface}}",
+        "systems.b={emit: {parent: {system: a, on: {bounce: 1}}, life: 9 s, speed: 1}, "
+        "forces: [gravity: [0, -8, 0]], look: {facing: surface}}",
+        "systems.b={emit: {parent: {system: a, on: {bounce: 1}}, life: 9 s, speed: 0, inherit: 0}, "
+        "forces: [gravity: [0, -8, 0]]}"};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct kiln_scene *scene;
+        struct kiln_particle at_rest[COUNT];
+        struct simulation run = start(children[i], &scene);
+        simulation_run(&run, 33);
+        const struct kiln_particle *records = simulation_records(&run) + COUNT;
+        for (int k = 0; k < COUNT; k++) {
+            assert_true(particle_is_alive(records[k]));
+            assert_true(particle_has_stopped(records[k]) == (i == 0));
+            if (i > 0)
+                continue;
+            expect_heading(records[k], FLOAT3(0, 1, 0));
+            const float3 place = particle_position(records[k]);
+            assert_true(place.y >= 0.0f && place.y < 0.002f);
+            assert_true(particle_turned_s(records[k], 0.5f, 1.0f / 60) == 0.0f);
+        }
+        memcpy(at_rest, records, sizeof at_rest);
+        simulation_run(&run, 10);
+        records = simulation_records(&run) + COUNT;
+        assert_true((memcmp(at_rest, records, sizeof at_rest) == 0) == (i == 0));
+        simulation_end(&run);
+        kiln_scene_destroy(&scene);
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -180,6 +265,8 @@ int main(void)
         cmocka_unit_test(numbers_of_children_are_drawn),
         cmocka_unit_test(deaths_at_impacts_may_count),
         cmocka_unit_test(dies_is_another_way_to_write_it),
+        cmocka_unit_test(what_lies_keeps_its_normal),
+        cmocka_unit_test(children_of_impacts_rest_from_birth),
     };
     return cmocka_run_group_tests_name("impacts", tests, NULL, NULL);
 }

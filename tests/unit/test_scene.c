@@ -180,7 +180,7 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
     assert_true(look->stretch.constant == 0.02f && look->spin.max.constant == 1);
     assert_true(look->stretch_dims);
     assert_int_equal(look->shape, KILN_SHAPE_LINE);
-    assert_int_equal(look->facing, KILN_FACING_AXIAL);
+    assert_int_equal(look->facing.way, KILN_FACING_AXIAL);
     assert_true(look->axis.y.count == 2 && look->axis.z.constant == -1);
     assert_true(look->point_size.count == 2 && !look->point_round);
     assert_int_equal(look->line_to, KILN_LINE_PREVIOUS);
@@ -192,7 +192,7 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
 
     const struct kiln_system *sphere = &scene->systems[1];
     assert_int_equal(sphere->look.shape, KILN_SHAPE_SPHERE);
-    assert_int_equal(sphere->look.facing, KILN_FACING_SCREEN);
+    assert_int_equal(sphere->look.facing.way, KILN_FACING_SCREEN);
     assert_true(sphere->look.point_round && sphere->look.line_width.constant == 1.5f);
     assert_int_equal(sphere->emit.shape, KILN_EMITTER_SPHERE);
     assert_true(sphere->emit.surface && sphere->emit.outward);

@@ -316,8 +316,23 @@ static const struct bad units[] = {
      "systems: {a: {look: {shape: ball}}}\n",
      ":2:29: systems.a.look.shape: expected billboard, point, line, sphere or mesh, found 'ball'"},
     {"kiln: 1\n"
+     "systems: {a: {look: {facing: {normal: [0, 0, 0]}}}}\n",
+     ":2:39: systems.a.look.facing.normal: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "systems: {a: {look: {facing: surface}}}\n",
+     ":2:30: systems.a.look.facing: no particle rests on a surface: set systems.a.collide.then to "
+     "stop "
+     "or stick, or let impacts give birth to particles without a speed (emit.parent.on)"},
+    {"kiln: 1\n"
+     "systems: {a: {collide: {}}, b: {emit: {parent: {system: a, on: {bounce: 1}}},\n"
+     "  look: {facing: surface}, interact: [collide: {radius: 1 cm}]}}\n",
+     ":3:18: systems.b.look.facing: must not be surface where particles interact, since nothing "
+     "pushes a particle that rests from its birth"},
+    {"kiln: 1\n"
      "systems: {a: {look: {facing: eye}}}\n",
-     ":2:30: systems.a.look.facing: expected screen, viewplane, viewpoint, axial or velocity, "
+     ":2:30: systems.a.look.facing: expected screen, viewplane, viewpoint, axial, velocity or "
+     "surface, "
+     "or {normal: [x, y, z]}, "
      "found 'eye'"},
     {"kiln: 1\n"
      "systems: {a: {look: {point: {size: 3 m}}}}\n",

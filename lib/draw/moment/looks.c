@@ -16,7 +16,8 @@ static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
                   LOOK_MESH == KILN_SHAPE_MESH,
               "shapes");
 static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
-                  LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
+                  LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY &&
+                  LOOK_SURFACE == KILN_FACING_SURFACE && LOOK_NORMAL == KILN_FACING_NORMAL,
               "facings");
 
 /* Holds the place at which looks are sampled: the clocks of a moment and of a progress through
@@ -123,7 +124,8 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
                                      mean_at(s, &look->spin.min), mean_at(s, &look->spin.max)};
     row[KILN_LOOK_TURN] = (float4){at(s, &look->rotation.min), at(s, &look->rotation.max),
                                    at(s, &look->point_size), at(s, &look->line_width)};
-    row[KILN_LOOK_AXIS] = unit(at3(s, &look->axis));
+    const bool normal = look->facing.way == KILN_FACING_NORMAL;
+    row[KILN_LOOK_AXIS] = unit(at3(s, normal ? &look->facing.normal : &look->axis));
     sample_light(s, look, row);
 }
 
@@ -160,7 +162,7 @@ static uint32_t look_uses(const float4 *keys, const struct kiln_look *look)
         &look->intensity, &look->fade_in,    &look->fade_out,   &look->soft,     &look->near_fade,
         &look->lit,       &look->point_size, &look->line_width, &look->thickness};
     const struct kiln_value3 *vectors[] = {&look->color, &look->bloom, &look->axis,
-                                           &look->sphere.color};
+                                           &look->facing.normal, &look->sphere.color};
     uint32_t uses = kiln_range_uses(keys, &look->scale) | kiln_range_uses(keys, &look->rotation) |
                     kiln_range_uses(keys, &look->spin);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
@@ -219,7 +221,7 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
                   (look->random_start ? LOOK_RANDOM_START : 0) |
                       (kiln_look_is_picture(look) ? LOOK_UNMIRRORED : 0),
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
-        .form = {look->shape, look->facing, look->point_round,
+        .form = {look->shape, look->facing.way, look->point_round,
                  look->shape == KILN_SHAPE_LINE ? look->line_to == KILN_LINE_PREVIOUS
                                                 : look->stretch_dims},
     };

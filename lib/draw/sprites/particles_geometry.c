@@ -35,7 +35,8 @@ static bool needs_shapes(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
         const struct kiln_look *look = &scene->systems[i].look;
-        bool plane = look->facing == KILN_FACING_SCREEN || look->facing == KILN_FACING_VELOCITY;
+        const enum kiln_facing facing = look->facing.way;
+        bool plane = facing == KILN_FACING_SCREEN || facing == KILN_FACING_VELOCITY;
         bool billboard = look->shape == KILN_SHAPE_BILLBOARD;
         if (scene->systems[i].enabled && !kiln_look_is_opaque(look) && !(billboard && plane))
             return true;

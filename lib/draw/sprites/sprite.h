@@ -46,7 +46,7 @@ struct kiln_sprite {
     float edge_u, edge_v;           /* edge of the cell, texels; plain: half the size, px */
     float rim_u, rim_v;             /* pixels a texel; 0: hard edges (struct billboard_rim) */
     float depth;                    /* view depth, m; unused if deep */
-    float soft;                     /* soft fade, 1/m */
+    float soft; /* soft fade, 1/m; below 0: minus that of struct billboard_lying */
     float opacity;
     float bulge; /* half the thickness in its middle, m */
     float base[3], slope[3];
@@ -61,7 +61,7 @@ struct kiln_sprite_extra {
     _Alignas(64) float light[4][3]; /* of KILN_SHADE_LIT: light times albedo: constant; factors of
                                        the normal: right, up, viewer */
     float q, q_x, q_y;              /* if deep: 1/m */
-    float distance;                 /* if literal: from the eye, m */
+    float distance;                 /* if literal: from the eye, m; if soft is below 0: `near` */
 };
 
 static_assert(sizeof(struct kiln_sprite) == 128 && sizeof(struct kiln_sprite_extra) == 64,

@@ -43,6 +43,7 @@ struct sprite_lanes {
     vf half_size;
     vf half_length; /* of the billboard along plane.up */
     struct billboard_plane plane;
+    vi lies;                /* mask: the billboard lies in a plane of the world */
     struct columns texture; /* bits of a texture of struct kiln_draw_look */
     vi level;
     struct columns hull_from, hull_to;   /* hulls of the cells */

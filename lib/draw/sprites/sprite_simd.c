@@ -13,11 +13,34 @@ enum {
 
 /* ---- form ------------------------------------------------------------------------------------ */
 
-static struct billboard_plane find_plane(const struct sprite_lanes *p)
+/* Finds the planes of billboards that lie in planes of the world. The others face the camera. */
+static struct billboard_plane find_aligned_plane(struct sprite_lanes *p)
+{
+    const float4 *rows = p->pass->view->world_to_view;
+    struct vf3 normal;
+    if (p->look->form.y == LOOK_NORMAL) {
+        const struct columns row = look_row(p, KILN_LOOK_AXIS);
+        normal = (struct vf3){row.c[0], row.c[1], row.c[2]};
+        p->lies = ~(vi){0};
+    } else {
+        normal = vf_heading(&p->record);
+        p->lies = p->record.stopped;
+    }
+    const struct billboard_plane picture = billboard_plane_of_picture();
+    const struct billboard_plane plane =
+        billboard_plane_across(normal, p->center, rows[0], rows[1], rows[2]);
+    return (struct billboard_plane){real3_select(p->lies, plane.right, picture.right),
+                                    real3_select(p->lies, plane.up, picture.up),
+                                    real3_select(p->lies, plane.normal, picture.normal)};
+}
+
+static struct billboard_plane find_plane(struct sprite_lanes *p)
 {
     const uint32_t facing = p->look->form.y;
     if (billboard_is_flat(facing))
         return billboard_plane_of_picture();
+    if (billboard_is_aligned(facing))
+        return find_aligned_plane(p);
     struct vf3 axis = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)};
     if (facing == LOOK_AXIAL) {
         struct columns row = look_row(p, KILN_LOOK_AXIS);
@@ -67,6 +90,21 @@ SIMD void widen(struct sprite_lanes *p, vf pixels_per_m)
     p->half_size = size.half_width;
     p->half_length = size.half_length;
     p->words[WORD_OF(opacity)] *= size.opacity;
+}
+
+/* Sets how billboards in planes of the world fade, but for those that fade by equation 3.3 as it is
+ * printed. Returns the factor on their size by which their cells are chosen. */
+SIMD vf lay(struct sprite_lanes *p)
+{
+    if (p->look->form.x != 0 || !billboard_is_aligned(p->look->form.y))
+        return vf_all(1.0f);
+    const struct billboard_lying lying =
+        billboard_lying_of(p->plane, p->center, p->shape.c[3], p->half_size);
+    if (p->look->flags.z == 0) {
+        p->words[WORD_OF(soft)] = vf_select(p->lies, lying.soft, p->shape.c[3]);
+        p->extra[EXTRA_WORD_OF(distance)] = vf_where(p->lies, lying.near);
+    }
+    return vf_select(p->lies, billboard_slant(p->plane, p->center), vf_all(1.0f));
 }
 
 /* ---- colour ---------------------------------------------------------------------------------- */
@@ -242,7 +280,8 @@ static void place_sprites(struct sprite_lanes *p)
         place_plain(p, diameter_px);
         return;
     }
-    p->level = level_of(diameter_px, 2.0f * p->half_length * pixels_per_m);
+    const vf shown = lay(p);
+    p->level = level_of(diameter_px * shown, 2.0f * p->half_length * pixels_per_m * shown);
     choose_cells(p);
     if (billboard_is_flat(p->look->form.y))
         place_flat(p);

@@ -170,6 +170,10 @@ SIMD vf fade(const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,
              vi inside)
 {
     vi visible = inside & (depth <= scene);
+    if (s->soft < 0.0f)
+        return vf_where(inside, billboard_lies_on(vf_all(-s->soft), vf_all(extra->distance),
+                                                  scene - depth, depth) *
+                                    s->opacity);
     if (s->soft <= 0.0f)
         return vf_where(visible, vf_all(s->opacity));
     if (s->flags & KILN_SPRITE_LITERAL)

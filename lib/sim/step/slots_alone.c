@@ -120,7 +120,7 @@ void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *
         trace = trace_flight(sim, b, i, before);
         if (family->travels)
             family_travel(sim, slot, false, trace);
-    } else if (family->keeps) {
+    } else if (family->keeps & FAMILY_KEEPS_REMAINS) {
         *record = particle_remains(before);
     }
     if (family->traced)

@@ -200,18 +200,24 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *
     b->velocity = s->moving;
 }
 
+/* Returns whether particles of the system may rest, as STEP_RESTS does. */
+static inline bool may_rest(const struct kiln_sim *sim)
+{
+    const struct kiln_family_params *family = &sim->step->family;
+    return family->then >= THEN_STOP || (family->keeps & FAMILY_KEEPS_NORMALS) != 0;
+}
+
 /* Returns whether lane i has a particle that an impact has stopped. */
 static inline uint32_t rests_at(const struct kiln_sim *sim, const struct kiln_block *b, uint32_t i)
 {
-    return sim->step->family.then >= THEN_STOP &&
-           (b->lanes.words[7][i] & KILN_PARTICLE_STOPPED) != 0;
+    return may_rest(sim) && (b->lanes.words[7][i] & KILN_PARTICLE_STOPPED) != 0;
 }
 
 /* Puts particles that an impact has stopped back to where they are, or on with the colliders that
  * they ride, as step_rest does. */
 static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b)
 {
-    if (sim->step->family.then < THEN_STOP)
+    if (!may_rest(sim))
         return;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         if (!rests_at(sim, b, i))
@@ -235,7 +241,7 @@ static inline void stay_at_rest(const struct kiln_sim *sim, struct kiln_block *b
 static inline void rest_on(const struct kiln_sim *sim, struct kiln_block *b,
                            const struct kiln_particle *before)
 {
-    if (sim->step->family.then < THEN_STOP)
+    if (!may_rest(sim))
         return;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         if (!rests_at(sim, b, i))

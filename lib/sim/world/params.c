@@ -241,7 +241,10 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         const struct kiln_system *system = &scene->systems[index];
         const struct kiln_parent *parent = &system->emit.parent;
         struct kiln_family_params *family = &params->systems[index].family;
-        *family = (struct kiln_family_params){.then = then_of(&system->collide)};
+        *family = (struct kiln_family_params){
+            .then = then_of(&system->collide),
+            .keeps = kiln_look_lies(&system->look) ? FAMILY_KEEPS_NORMALS : 0,
+        };
         if (parent->enabled) {
             const bool by_metre = parent->event == KILN_EVENT_TRAIL && parent->per_metre > 0;
             family->born_of = by_metre ? BORN_OF_WAY : 1 + (uint)parent->event;
@@ -256,7 +259,7 @@ static void fill_families(struct kiln_sim_params *params, const struct kiln_scen
         }
         if (kiln_sim_is_traced(scene, index)) {
             family->traced = 1;
-            family->keeps = kiln_family_is_inherited(scene, index);
+            family->keeps |= kiln_family_is_inherited(scene, index) ? FAMILY_KEEPS_REMAINS : 0;
             family->counted = kiln_family_counted_hits(scene, index);
             family->traces = params->trace_count;
             params->trace_count += system->capacity;

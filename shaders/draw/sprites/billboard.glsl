@@ -4,9 +4,11 @@
 struct billboard {
     vec4 color;   /* albedo, or the tint of a colour cell; a: opacity */
     vec4 hot;     /* light emitted where the cell's heat is 1; a: 1 additive, 0 covering */
-    vec4 cool;    /* light emitted where the heat is 0; a: scale of the soft fade, 1/m */
+    vec4 cool;    /* light emitted where the heat is 0; a: scale of the soft fade, 1/m, or `soft`
+                   * of struct billboard_lying, below 0 */
     vec4 cells;   /* two layers of the atlas, the mix between them, level of detail */
-    vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; distance, m */
+    vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; distance, m, or `near`
+                   * of struct billboard_lying */
     vec4 bloom;   /* weights of equation 3.2; a: scale of the motion between the cells */
     /* Light as spherical harmonics of degrees 0 and 1: light from all sides, and its change along
      * the billboard's axes (right, up, towards the viewer). */

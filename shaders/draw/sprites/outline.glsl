@@ -15,7 +15,8 @@
 struct outline {
     place rows;
     vec2 corners[4];     /* px from the top left, with the rim; undefined unless `in_front` */
-    float nearest_depth; /* the smallest depth of the corners, m */
+    float nearest_depth; /* the smallest depth of the corners, m; of a billboard that lies on a
+                          * surface, less its size */
     bool in_front;       /* all corners lie in front of the eye */
     bool has_area;       /* false: the billboard is seen edge-on and covers no pixel */
 };
@@ -101,6 +102,8 @@ outline find_outline()
         s.corners[i] = to_pixels(at);
         s.nearest_depth = min(s.nearest_depth, -at.z);
     }
+    if (particle.cool.a < 0.0) /* it is seen on what is nearer by up to its size */
+        s.nearest_depth = max(s.nearest_depth - 2.0 / particle.depth.w, 0.0);
     if (rim.u > 0.0)
         surround(s, RIM_MARGIN);
     s.has_area = p.seen;

@@ -197,8 +197,13 @@ void make_billboard(uint entry)
     uint4 form = looks[system].form;
 #if SHAPES
     vec3 world_up = vec3(0.0, 1.0, 0.0);
-    vec3 axis = form.y == LOOK_AXIAL ? look_at(system, KILN_LOOK_AXIS, life).xyz : world_up;
-    if (!billboard_is_flat(form.y))
+    vec3 axis = form.y == LOOK_AXIAL || form.y == LOOK_NORMAL ? look_at(system, KILN_LOOK_AXIS, life).xyz : world_up;
+    bool lies = form.x == 0u && billboard_is_aligned(form.y) &&
+                (form.y == LOOK_NORMAL || particle_has_stopped(record));
+    if (lies)
+        plane = billboard_plane_across(form.y == LOOK_NORMAL ? axis : particle_heading(record), center.xyz,
+                                       view.world_to_view[0], view.world_to_view[1], view.world_to_view[2]);
+    else if (!billboard_is_flat(form.y) && !billboard_is_aligned(form.y))
         plane = billboard_plane_facing(form.y, world_to_view_vector(axis), center.xyz);
 #endif
     vec3 moving = world_to_view_vector(particle_heading(record));
@@ -228,10 +233,22 @@ void make_billboard(uint entry)
     vec4 bloom = look_at(system, KILN_LOOK_BLOOM, life);
     particle.bloom = vec4(bloom.rgb, uintBitsToFloat(texture_cells.w));
 
+    float shown = 2.0 * pixels_per_m;
+#if SHAPES
+    if (lies)
+        shown *= billboard_slant(plane, center.xyz);
+#endif
     particle.cells = choose_cells(texture_cells, life * cool.w, (looks[system].flags.y & LOOK_RANDOM_START) != 0u,
-                                  stream, 2.0 * pixels_per_m * vec2(half_size, size.half_length));
+                                  stream, shown * vec2(half_size, size.half_length));
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
+#if SHAPES
+    if (lies && looks[system].flags.z == 0u) {
+        billboard_lying lying = billboard_lying_of(plane, center.xyz, shape.w, half_size);
+        particle.cool.a = lying.soft;
+        particle.depth.w = lying.near;
+    }
+#endif
     light_particle(cover.w, cover.rgb, KILN_ENTRY_SLOT(entry), position, plane);
     particle.light_x.a = half_size * bloom.a; /* half the thickness, m */
     particle.light_0.a = particle.light_z.a = 0.0; /* outline.glsl finds the rim */

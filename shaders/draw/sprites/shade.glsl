@@ -51,6 +51,10 @@ float soft_factor(billboard quad, float depth, float scene)
 {
     float visible = step(depth, scene);
     float scale = quad.cool.a;
+#if SHAPES
+    if (scale < 0.0)
+        return billboard_lies_on(-scale, quad.depth.w, scene - depth, depth);
+#endif
     if (scale <= 0.0)
         return visible;
     if (quad.depth.z > 0.0)
