@@ -189,10 +189,10 @@ static void expect_heading(struct kiln_particle p, float3 expected)
  * a ball, of which they cover the upper half, and of the floor. Their state is else as without. */
 static void what_lies_keeps_its_normal(void **state)
 {
-    static const char *const as_they_fly[] = {"backdrop.objects=[sphere: {center: [0.5, 0.3, 0], "
-                                              "radius: 0.2 m}]",
-                                              NULL};
-    static const char *const lying[] = {as_they_fly[0], "systems.a.look.facing=surface", NULL};
+    static const char ball_there[] =
+        "backdrop.objects=[sphere: {center: [0.5, 0.3, 0], radius: 0.2 m}]";
+    static const char *const as_they_fly[] = {ball_there, NULL};
+    static const char *const lying[] = {ball_there, "systems.a.look.facing=surface", NULL};
     (void)state;
     struct kiln_particle before[COUNT];
     for (int lies = 0; lies < 2; lies++) {
