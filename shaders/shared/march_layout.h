@@ -13,7 +13,7 @@
 /* The ways of the gas in all cells, two vec4 each; then the edges of all cells, a vec4 each. */
 #define MARCH_BIND_FINER    1
 #define MARCH_BIND_TINTS    2 /* what coloured smoke scatters, a vec4 a cell */
-#define MARCH_BIND_PLACES   3 /* the block of each brick; then the tiles, four words each */
+#define MARCH_BIND_PLACES   3 /* the block of each cube; then the tiles, four words each */
 #define MARCH_BIND_PLANES   4 /* smoke, flame and glow of each pixel, a vec4 each */
 #define MARCH_BIND_HALFWAY  5 /* of each pixel: depth of half opacity; then optical depth passed */
 #define MARCH_BIND_PROFILES 6 /* the profile of each pixel; then the memory of profiles */

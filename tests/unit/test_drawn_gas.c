@@ -458,6 +458,43 @@ static void cells_spread_to_their_neighbours(void **state)
     kiln_threads_destroy(&threads);
 }
 
+/* Gas of one cell is spread to those around it. Samples of a cube read its 4 cells along each axis
+ * and the next one. */
+static void cubes_without_gas_have_no_block(void **state)
+{
+    (void)state;
+    static const int32_t places[] = {0, 2, 3, 4, 5, 7, 8, 12, 23};
+    struct kiln_error error = {0};
+    struct kiln_threads *threads = kiln_threads_create(1);
+    const struct kiln_volume_seen seen = {.least_smoke = 1e-3f, .least_flame = 1e-3f};
+    for (size_t n = 0; n < sizeof places / sizeof *places; n++) {
+        struct kiln_gas gas = {0};
+        struct kiln_volume_field field = {.gas = NULL};
+        const int32_t at[3] = {places[n], places[(n + 1) % 9], places[(n + 4) % 9]};
+        gas_fixture_full(&gas, 24, 0.1f, 1e-6f, 0.0f, 0.0f);
+        const size_t brick =
+            kiln_gas_brick_index(&gas, at[0] / GAS_BRICK, at[1] / GAS_BRICK, at[2] / GAS_BRICK);
+        const int32_t row = at[2] % GAS_BRICK * GAS_BRICK + at[1] % GAS_BRICK;
+        float *cell =
+            gas.brick[brick].now + (ptrdiff_t)(row * GAS_BRICK + at[0] % GAS_BRICK) * GAS_CARRIED;
+        cell[n % 2 ? GAS_SMOKE : GAS_FLAME] = 1.0f;
+        assert_true(kiln_volume_field_fill(&field, &gas, &seen, threads, &error));
+        for (int32_t k = 0; k < 6 * 6 * 6; k++) {
+            const int32_t cube[3] = {k % 6, k / 6 % 6, k / 36};
+            bool meets = true;
+            for (int i = 0; i < 3; i++)
+                meets = meets && at[i] >= 4 * cube[i] - 1 && at[i] <= 4 * cube[i] + 5;
+            const int32_t block =
+                field.block_of[kiln_gas_brick_index(&gas, cube[0] / 2, cube[1] / 2, cube[2] / 2)];
+            assert_int_equal(field.cube_of[k], meets ? block : -1);
+            assert_true(!meets || block >= 0);
+        }
+        kiln_volume_field_finish(&field);
+        kiln_gas_finish(&gas);
+    }
+    kiln_threads_destroy(&threads);
+}
+
 static void a_scene_without_gas_takes_no_memory(void **state)
 {
     (void)state;
@@ -509,6 +546,7 @@ int main(void)
         cmocka_unit_test(the_nearer_domain_hides_the_other),
         cmocka_unit_test(threads_and_vectors_make_no_difference),
         cmocka_unit_test(cells_spread_to_their_neighbours),
+        cmocka_unit_test(cubes_without_gas_have_no_block),
         cmocka_unit_test(a_scene_without_gas_takes_no_memory),
         cmocka_unit_test(no_gas_leaves_pictures_as_they_are),
     };

@@ -165,6 +165,40 @@ static void write_gas(around values[FILTERED], float *cell)
     })
 }
 
+/* Returns whether samples in a cube see gas. first: its first cell, as EACH_CELL counts. */
+static bool cube_is_seen(around values[FILTERED], const struct kiln_volume_seen *seen,
+                         const int32_t first[3])
+{
+    for (int32_t z = first[2]; z <= first[2] + VOLUME_CUBE; z++)
+        for (int32_t y = first[1]; y <= first[1] + VOLUME_CUBE; y++)
+            for (int32_t x = first[0]; x <= first[0] + VOLUME_CUBE; x++)
+                if (values[SMOKE][z][y][x] > seen->least_smoke ||
+                    values[FLAME][z][y][x] > seen->least_flame)
+                    return true;
+    return false;
+}
+
+/* Finds the cubes of a block in which gas is seen. Returns a bit for each of them: 1 and 2 for the
+ * first two along x, then those above them along y and z. */
+static uint32_t find_cubes(const struct copy_job *job, uint32_t block, around values[FILTERED])
+{
+    const struct kiln_volume_field *field = job->field;
+    const struct kiln_gas_place brick = kiln_volume_place(field, block), n = field->bricks;
+    uint32_t found = 0;
+    for (int32_t i = 0; i < VOLUME_CUBES; i++) {
+        const int32_t at[3] = {i & 1, i >> 1 & 1, i >> 2};
+        int32_t first[3];
+        for (int k = 0; k < 3; k++)
+            first[k] = BORDER + at[k] * VOLUME_CUBE;
+        if (!cube_is_seen(values, job->seen, first))
+            continue;
+        const int32_t x = 2 * brick.x + at[0], y = 2 * brick.y + at[1], z = 2 * brick.z + at[2];
+        field->cube_of[((ptrdiff_t)z * 2 * n.y + y) * 2 * n.x + x] = (int32_t)block;
+        found |= 1u << i;
+    }
+    return found;
+}
+
 static void write_tints(around values[FILTERED], float *tint)
 {
     EACH_CELL({
@@ -223,20 +257,34 @@ static void gather_ways(const struct kiln_volume_field *field, const struct bloc
     }
 }
 
-/* Writes what a block is drawn finer by. */
-static void write_finer(const struct kiln_volume_field *field, uint32_t block,
+/* Returns the bits of find_cubes for cubes whose samples read a cell. x, y, z: as EACH_CELL counts.
+ */
+static uint32_t cubes_at(int32_t x, int32_t y, int32_t z)
+{
+    const int32_t at[3] = {x, y, z}, middle = BORDER + VOLUME_CUBE;
+    static const uint32_t lower[3] = {0x55, 0x33, 0x0f};
+    uint32_t cubes = 0xff;
+    for (int i = 0; i < 3; i++)
+        cubes &= at[i] < middle ? lower[i] : at[i] > middle ? ~lower[i] : 0xff;
+    return cubes;
+}
+
+/* Writes what a block is drawn finer by, at cells that samples in some of its cubes read. */
+static void write_finer(const struct kiln_volume_field *field, uint32_t block, uint32_t cubes,
                         around values[FILTERED], around ways[WAYS])
 {
     const float cell = field->gas->shape.cell;
     float *way = field->ways + (size_t)block * VOLUME_BLOCK;
     float *edge = field->edges + (size_t)block * VOLUME_FOURS;
     EACH_CELL({
-        for (int i = 0; i < VOLUME_CELL; i++)
-            way[i] = i % 4 < 3 ? ways[i / 4 * 3 + i % 4][z][y][x] : 0.0f;
-        edge[VOLUME_SMOKE_THICKNESS] = thickness_at(values[SMOKE], x, y, z);
-        edge[VOLUME_FLAME_THICKNESS] = thickness_at(values[FLAME], x, y, z);
-        edge[VOLUME_CALM] = calm_at(ways, cell, x, y, z);
-        edge[VOLUME_CALM + 1] = calm_at(ways + 3, cell, x, y, z);
+        if (cubes_at(x, y, z) & cubes) {
+            for (int i = 0; i < VOLUME_CELL; i++)
+                way[i] = i % 4 < 3 ? ways[i / 4 * 3 + i % 4][z][y][x] : 0.0f;
+            edge[VOLUME_SMOKE_THICKNESS] = thickness_at(values[SMOKE], x, y, z);
+            edge[VOLUME_FLAME_THICKNESS] = thickness_at(values[FLAME], x, y, z);
+            edge[VOLUME_CALM] = calm_at(ways, cell, x, y, z);
+            edge[VOLUME_CALM + 1] = calm_at(ways + 3, cell, x, y, z);
+        }
         way += VOLUME_CELL;
         edge += VOLUME_FOUR;
     })
@@ -261,10 +309,11 @@ static void copy_blocks(void *context, size_t begin, size_t end, uint32_t worker
         for (int k = 0; k < (colored ? FILTERED : RED); k++)
             filter(values[k]);
         write_gas(values, kiln_volume_block(field, block));
+        const uint32_t cubes = find_cubes(job, block, values);
         if (colored)
             write_tints(values, field->tints + i * VOLUME_FOURS);
         if (detail)
-            write_finer(field, block, values, ways);
+            write_finer(field, block, cubes, values, ways);
     }
 }
 

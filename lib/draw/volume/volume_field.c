@@ -20,12 +20,13 @@ uint64_t kiln_volume_field_bytes(const struct kiln_gas_shape *shape, uint64_t br
 {
     const uint64_t finer = shape->detailed ? VOLUME_BLOCK + VOLUME_FOURS : 0;
     const uint64_t floats = VOLUME_BLOCK + finer + (shape->colored ? VOLUME_FOURS : 0);
-    return bricks * (floats * sizeof(float) + 2 * sizeof(int32_t) + 1);
+    return bricks * (floats * sizeof(float) + (2 + VOLUME_CUBES) * sizeof(int32_t) + 1);
 }
 
 void kiln_volume_field_finish(struct kiln_volume_field *field)
 {
     free(field->block_of);
+    free(field->cube_of);
     free(field->seen);
     free(field->brick_of);
     free(field->blocks);
@@ -112,11 +113,13 @@ static bool make_room(struct kiln_volume_field *field, size_t bricks)
     if (bricks <= field->brick_room)
         return true;
     free(field->block_of);
+    free(field->cube_of);
     free(field->seen);
     field->block_of = malloc(bricks * sizeof *field->block_of);
+    field->cube_of = malloc(bricks * VOLUME_CUBES * sizeof *field->cube_of);
     field->seen = malloc(bricks);
     field->brick_room = bricks;
-    return field->block_of && field->seen;
+    return field->block_of && field->cube_of && field->seen;
 }
 
 static bool make_block_room(struct kiln_volume_field *field, bool detail)
@@ -161,6 +164,7 @@ bool kiln_volume_field_fill(struct kiln_volume_field *field, const struct kiln_g
     for (size_t i = 0; i < bricks; i++)
         if (field->block_of[i] >= 0)
             field->brick_of[field->block_of[i]] = (int32_t)i;
+    memset(field->cube_of, 0xff, bricks * VOLUME_CUBES * sizeof *field->cube_of);
     kiln_volume_copy(field, seen, threads);
     return true;
 }

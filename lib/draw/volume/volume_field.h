@@ -1,6 +1,7 @@
 /* A kiln_volume_field holds what the march through a domain of gas reads: blocks of cells with what
  * gas there is, and the light that reaches it. A block is a brick of the domain's window, and one
- * more cell on each of its upper sides, so that a sample between cells reads one block. */
+ * more cell on each of its upper sides, so that a sample between cells reads one block. Rays pass
+ * over the cubes of a brick, its eighths, in which nothing is seen. */
 #ifndef KILN_DRAW_VOLUME_VOLUME_FIELD_H
 #define KILN_DRAW_VOLUME_VOLUME_FIELD_H
 
@@ -37,14 +38,17 @@ enum {
     VOLUME_BLOCK = VOLUME_EDGE * VOLUME_PLANE, /* floats of a block */
     VOLUME_FOUR = 4,                           /* floats of a cell's tint, and of its edges */
     VOLUME_FOURS = VOLUME_BLOCK / VOLUME_CELL * VOLUME_FOUR,
+    VOLUME_CUBE = GAS_BRICK / 2, /* cells along an edge of a cube, an eighth of a brick */
+    VOLUME_CUBES = 8,            /* of a brick */
 };
 
 struct kiln_volume_field {
     const struct kiln_gas *gas;
     struct kiln_gas_place cells, bricks; /* of the window */
     int32_t *block_of; /* of each brick: the number of its block; -1: nothing is seen there */
+    int32_t *cube_of;  /* of each cube of the window, row by row: the same */
     uint8_t *seen;     /* scratch: of each brick */
-    size_t brick_room; /* elements of both */
+    size_t brick_room; /* elements of block_of and seen; cube_of has VOLUME_CUBES for each */
     int32_t *brick_of; /* of each block */
     float *blocks;
     float *ways;  /* of blocks of detailed gas: both groups of GAS_CAME_FROM, as `blocks` */

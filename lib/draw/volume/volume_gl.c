@@ -213,7 +213,7 @@ static void describe(const struct kiln_volume_gl *gl, const struct kiln_volume_m
     const struct kiln_volume_field *f = m->field;
     const struct kiln_gas *gas = f->gas;
     const struct kiln_gas_place cells = f->cells, bricks = f->bricks, at = gas->at;
-    const size_t brick_count = (size_t)bricks.x * (size_t)bricks.y * (size_t)bricks.z;
+    const size_t cubes = VOLUME_CUBES * (size_t)bricks.x * (size_t)bricks.y * (size_t)bricks.z;
     const bool detail = m->octaves > 0 && gas->shape.detailed;
     to->eye = vector_of(m->eye, m->near_m);
     to->right = vector_of(m->right, m->cell_m);
@@ -230,8 +230,8 @@ static void describe(const struct kiln_volume_gl *gl, const struct kiln_volume_m
         to->world[i] = vector_of(m->world[i], 0.0f);
     to->cells = UINT4((uint)cells.x, (uint)cells.y, (uint)cells.z, actions_of(m));
     to->bricks = UINT4((uint)bricks.x, (uint)bricks.y, (uint)bricks.z, gl->width);
-    to->picture = UINT4(gl->height, (uint)brick_count, (uint)pixels_of(gl),
-                        (uint)(f->count * (VOLUME_BLOCK / 4)));
+    to->picture =
+        UINT4(gl->height, (uint)cubes, (uint)pixels_of(gl), (uint)(f->count * (VOLUME_BLOCK / 4)));
     memcpy(to->colors, m->colors->rgb, sizeof to->colors);
 }
 
@@ -276,12 +276,12 @@ static bool send_field(struct kiln_volume_gl *gl, const struct kiln_volume_march
            upload(gl, MARCH_BIND_TINTS, f->tints, colored ? tints * sizeof(float) : 0, error);
 }
 
-/* Lists the tiles that blocks touch, behind the bricks. */
+/* Lists the tiles that blocks touch, behind the cubes. */
 static bool send_places(struct kiln_volume_gl *gl, const struct kiln_volume_march *m,
                         const struct kiln_volume_tiles *tiles, struct kiln_error *error)
 {
     const struct kiln_gas_place bricks = m->field->bricks;
-    const size_t words = (size_t)bricks.x * (size_t)bricks.y * (size_t)bricks.z;
+    const size_t words = VOLUME_CUBES * (size_t)bricks.x * (size_t)bricks.y * (size_t)bricks.z;
     const uint32_t across = kiln_tiles_along(gl->width);
     gl->tile_count = 0;
     for (size_t i = 0; i < tiles_of(gl); i++) {
@@ -297,7 +297,7 @@ static bool send_places(struct kiln_volume_gl *gl, const struct kiln_volume_marc
     const size_t tile_bytes = (size_t)gl->tile_count * 4 * sizeof *gl->tiles;
     if (!make_room(gl, MARCH_BIND_PLACES, words * sizeof(int32_t) + tile_bytes + 16, error))
         return false;
-    send(gl, MARCH_BIND_PLACES, 0, m->field->block_of, words * sizeof(int32_t));
+    send(gl, MARCH_BIND_PLACES, 0, m->field->cube_of, words * sizeof(int32_t));
     if (tile_bytes > 0)
         send(gl, MARCH_BIND_PLACES, words * sizeof(int32_t), gl->tiles, tile_bytes);
     return true;

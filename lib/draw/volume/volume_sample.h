@@ -4,16 +4,18 @@
 
 #include "draw/volume/volume_packet.h"
 
+_Static_assert(VOLUME_CUBE == 4, "find_places shifts cells by 2");
+
 /* Holds the places of a step's samples, of each ray. */
 struct places {
     _Alignas(32) float part[3][8]; /* of the way to the next cell */
-    _Alignas(32) int32_t block[8]; /* -1: none */
+    _Alignas(32) int32_t block[8]; /* -1: nothing is seen */
     _Alignas(32) int32_t cell[8];  /* floats from the block's first cell */
     struct eight at[3];            /* in the window, cells, from the middle of its first cell */
     struct eight middle;           /* of the segments: from the eye, cells */
     struct eight length;           /* of the segments, cells; 0: none */
     bool some;                     /* a ray has a block */
-    float skip;                    /* where else the next ray meets another brick */
+    float skip;                    /* where else the next ray meets another cube */
 };
 
 /* Finds the samples of step number `step`. */
@@ -22,7 +24,7 @@ SIMD void find_places(const struct kiln_volume_march *m, const struct packet *p,
 {
     const struct kiln_volume_field *field = m->field;
     const int32_t count[3] = {field->cells.x, field->cells.y, field->cells.z};
-    const int32_t stride[3] = {1, field->bricks.x, field->bricks.x * field->bricks.y};
+    const int32_t stride[3] = {1, 2 * field->bricks.x, 4 * field->bricks.x * field->bricks.y};
     const int32_t floats[3] = {VOLUME_CELL, VOLUME_ROW, VOLUME_PLANE};
     struct eight skip;
     at->some = false;
@@ -38,15 +40,15 @@ SIMD void find_places(const struct kiln_volume_march *m, const struct packet *p,
         for (int i = 0; i < 3; i++) {
             vf place = m->eye[i] + p->way[i].part[k] * middle - 0.5f;
             place = vf_clamp(place, 0.0f, (float)(count[i] - 1));
-            const vi cell = vi_of(place), brick = cell >> 3;
+            const vi cell = vi_of(place), cube = cell >> 2;
             at->at[i].part[k] = place;
             vf_store(at->part[i] + (ptrdiff_t)k * LANES, place - vf_of(cell));
-            number += brick * stride[i];
+            number += cube * stride[i];
             in += (cell & (GAS_BRICK - 1)) * floats[i];
-            const vf side = vf_of((brick - (p->way[i].part[k] > 0.0f)) * GAS_BRICK) + 0.5f;
+            const vf side = vf_of((cube - (p->way[i].part[k] > 0.0f)) * VOLUME_CUBE) + 0.5f;
             leaves = vf_min(leaves, (side - m->eye[i]) * p->inverse[i].part[k]);
         }
-        const vi block = vi_gather(field->block_of, number & meets) | ~meets;
+        const vi block = vi_gather(field->cube_of, number & meets) | ~meets;
         const vi begun = p->from.part[k] < (step + 1.0f) * m->step;
         const vi over = p->to.part[k] <= (step + 1.0f) * m->step;
         vf next = vf_select(begun, leaves, p->from.part[k]);

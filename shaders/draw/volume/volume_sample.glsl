@@ -8,9 +8,9 @@ const uint EDGE = 9u, PLANE = EDGE * EDGE, BLOCK = EDGE * PLANE;
 struct step_place {
     vec3 at, part;        /* in the window, cells; the way to the next cell */
     uint cell;            /* number of the cell among those of all blocks */
-    bool some;            /* false: there is no block */
+    bool some;            /* false: nothing is seen there */
     float middle, span;   /* of the step's segment, cells */
-    float leaves;         /* where the ray leaves the brick */
+    float leaves;         /* where the ray leaves the cube */
 };
 
 /* Holds the gas at a sample, and the light that reaches it. */
@@ -25,12 +25,12 @@ step_place find_place(ray r, float number)
     float begin = max(number * march.up.w, r.from), end = min((number + 1.0) * march.up.w, r.to);
     s.middle = 0.5 * (begin + end);
     s.at = clamp(march.eye.xyz + r.way * s.middle - 0.5, vec3(0.0), vec3(march.cells.xyz - 1u));
-    uvec3 cell = uvec3(s.at), brick = cell >> 3, within = cell & 7u;
+    uvec3 cell = uvec3(s.at), cube = cell >> 2, within = cell & 7u;
     s.part = s.at - vec3(cell);
-    vec3 side = vec3(ivec3(brick) + ivec3(greaterThan(r.way, vec3(0.0)))) * 8.0 + 0.5;
+    vec3 side = vec3(ivec3(cube) + ivec3(greaterThan(r.way, vec3(0.0)))) * 4.0 + 0.5;
     vec3 leaves = (side - march.eye.xyz) * r.inverse;
     s.leaves = min(leaves.x, min(leaves.y, leaves.z));
-    int block = int(places[(brick.z * march.bricks.y + brick.y) * march.bricks.x + brick.x]);
+    int block = int(places[(cube.z * 2u * march.bricks.y + cube.y) * 2u * march.bricks.x + cube.x]);
     s.some = begin < end && block >= 0;
     s.cell = s.some ? uint(block) * BLOCK + within.z * PLANE + within.y * EDGE + within.x : 0u;
     s.span = s.some ? end - begin : 0.0;
