@@ -315,7 +315,8 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
                                .rig = request->rig,
                                .open = ask_for_file};
     unsigned char *bytes = read_file(file, request->most_bytes, &mesh.size, &error);
-    struct kiln_mesh_result *result = bytes ? calloc(1, sizeof *result) : NULL;
+    /* This process has large pages (choose_environment of lib/asset/loader/helper.c). */
+    struct kiln_mesh_result *result = bytes ? kiln_mesh_result_create(true) : NULL;
     bool needs_other = false;
     mesh.bytes = bytes;
     if (bytes && !result)
@@ -326,11 +327,7 @@ static void serve_mesh(const struct kiln_decode_request *request, int file)
         send_text(KILN_DECODE_NEEDS_OTHER, "");
     else
         send_failure(&error, NULL);
-    if (result) {
-        free(result->skin.deltas);
-        free(result->looks.bytes);
-    }
-    free(result);
+    kiln_mesh_result_destroy(&result);
     free(bytes);
 }
 

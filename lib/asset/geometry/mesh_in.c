@@ -488,18 +488,14 @@ static struct imported import(struct request *request, int file, struct kiln_err
     struct imported imported = {.mesh = NULL};
     if (!note_contents(request, file, error))
         return imported;
-    struct kiln_mesh_result *result = calloc(1, sizeof *result);
+    struct kiln_mesh_result *result = kiln_mesh_result_create(false);
     if (!result)
         kiln_error_no_memory(error, "reading the mesh of %s", request->name);
     request->wanted.most_bytes = KILN_MAX_MESH_BYTES;
     if (result && receive(request, file, result, error))
         imported = take(request, result, error);
     kiln_helper_end(&request->helper);
-    if (result) {
-        free(result->skin.deltas);
-        free(result->looks.bytes);
-    }
-    free(result);
+    kiln_mesh_result_destroy(&result);
     return imported;
 }
 

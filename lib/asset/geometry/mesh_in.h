@@ -13,8 +13,8 @@
 #include "asset/geometry/skin_in.h"
 #include "asset/loader/protocol.h"
 
-/* Holds the arrays in their largest sizes. It comes from calloc: pages that are never touched take
- * no memory. */
+/* Holds the arrays in their largest sizes, 134 MiB together. Pages of a result that are never
+ * touched take no memory. */
 struct kiln_mesh_result {
     uint32_t vertex_count, triangle_count, morph_target_count;
     float vertices[KILN_MAX_MESH_VERTICES][6]; /* position and normal */
@@ -26,6 +26,15 @@ struct kiln_mesh_result {
     /* what was changed or left out, for the user: a line each, none at the end */
     char notes[KILN_MESSAGE_SIZE];
 };
+
+/* Returns an empty result, all of whose numbers are 0, or NULL if memory is short (mesh_arrays.c).
+ * The caller frees it by kiln_mesh_result_destroy. large_pages: asks the kernel for pages of 2 MiB,
+ * which are quicker to fill, but zeroed as a whole when a byte of them is touched. */
+struct kiln_mesh_result *kiln_mesh_result_create(bool large_pages);
+
+/* Frees a result with skin.deltas and looks.bytes, and sets *result to NULL, which it may be
+ * already. */
+void kiln_mesh_result_destroy(struct kiln_mesh_result **result);
 
 /* Calls `visit` for each array that crosses the socket, in the order in which it does, with its
  * size by the counts of the result. The request says which arrays are sent. Both programs use it
