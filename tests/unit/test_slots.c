@@ -57,85 +57,142 @@ static void step_family_one_by_one(struct kiln_slots *slots)
     }
 }
 
-/* How particles turn, twice; NULL where none does. */
+/* How particles turn: before a system's step, after it slot by slot (`words`), and after it in
+ * blocks. NULL where none does. */
 struct spins {
-    uint4 *words, *copy;
+    uint4 *before, *words, *blocks;
     size_t bytes;
 };
+
+static uint4 *make_spin_words(size_t bytes)
+{
+    uint4 *words = aligned_alloc(32, bytes);
+    assert_non_null(words);
+    memset(words, 0, bytes);
+    return words;
+}
 
 static struct spins make_spins(uint32_t slots)
 {
     struct spins spins = {.bytes = slots * sizeof(struct kiln_spin)};
-    if (slots == 0)
-        return spins;
-    spins.words = aligned_alloc(32, spins.bytes);
-    spins.copy = aligned_alloc(32, spins.bytes);
-    assert_true(spins.words && spins.copy);
-    memset(spins.words, 0, spins.bytes);
+    if (slots > 0) {
+        spins.before = make_spin_words(spins.bytes);
+        spins.words = make_spin_words(spins.bytes);
+        spins.blocks = make_spin_words(spins.bytes);
+    }
     return spins;
 }
 
-/* Traces of all systems, twice. */
+static void free_spins(struct spins *spins)
+{
+    free(spins->before);
+    free(spins->words);
+    free(spins->blocks);
+}
+
+/* Traces of all systems: after steps slot by slot, and after steps in blocks at each width of
+ * vectors. */
 struct traces {
-    struct kiln_trace *all, *copy;
+    struct kiln_trace *all, *blocks[KILN_SIMD_COUNT];
     uint32_t count;
 };
+
+static struct kiln_trace *make_traces_of_way(uint32_t count)
+{
+    struct kiln_trace *traces = calloc((size_t)count + 1, sizeof *traces);
+    assert_non_null(traces);
+    return traces;
+}
+
+static struct traces make_traces(uint32_t count)
+{
+    struct traces traces = {.all = make_traces_of_way(count), .count = count};
+    for (int simd = 0; simd < KILN_SIMD_COUNT; simd++)
+        traces.blocks[simd] = make_traces_of_way(count);
+    return traces;
+}
+
+static void free_traces(struct traces *traces)
+{
+    free(traces->all);
+    for (int simd = 0; simd < KILN_SIMD_COUNT; simd++)
+        free(traces->blocks[simd]);
+}
 
 /* Nothing is left of the step before: each slot of a system that is traced writes its trace. */
 static void forget_traces(struct traces *traces)
 {
     memset(traces->all, 0xa5, traces->count * sizeof *traces->all);
-    memset(traces->copy, 0x5a, traces->count * sizeof *traces->copy);
+    for (int simd = 0; simd < KILN_SIMD_COUNT; simd++)
+        memset(traces->blocks[simd], 0x5a, traces->count * sizeof *traces->all);
 }
 
-static void compare_traces(const struct kiln_step_params *step, struct traces *traces)
+/* What all systems are stepped with, and the particles of a system: before its step, and after it
+ * in blocks. */
+struct run {
+    const struct kiln_sim_params *params;
+    const float4 *words, *pushes, *planes;
+    struct kiln_particle *records, *before, *blocks;
+    struct spins spins;
+    struct traces traces;
+};
+
+/* Steps a system in blocks at a width of vectors, from the state before the step, and compares what
+ * comes out with `expected`, which was stepped slot by slot. */
+static void compare_blocks(struct run *run, enum kiln_simd simd, const struct kiln_slots *expected)
 {
+    const struct kiln_step_params *step = expected->sim.step;
     const struct kiln_family_params *family = &step->family;
-    if (!family->traced)
-        return;
-    assert_memory_equal(traces->copy + family->traces, traces->all + family->traces,
-                        step->used * sizeof *traces->all);
+    const size_t bytes = step->used * sizeof *run->records;
+    struct kiln_slots slots = *expected;
+    slots.records = run->blocks;
+    slots.traces = run->traces.blocks[simd];
+    slots.sim.spin_words = run->spins.blocks;
+    memcpy(run->blocks, run->before, bytes);
+    if (run->spins.words)
+        memcpy(run->spins.blocks, run->spins.before, run->spins.bytes);
+    step_in_blocks(KILN_SIMD_PICK(kiln_slots_step, simd), &slots);
+    assert_memory_equal(run->blocks, expected->records, bytes);
+    if (family->traced)
+        assert_memory_equal(slots.traces + family->traces, expected->traces + family->traces,
+                            step->used * sizeof *slots.traces);
+    if (run->spins.words)
+        assert_memory_equal(run->spins.words, run->spins.blocks, run->spins.bytes);
 }
 
-/* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
-static uint32_t step_both(kiln_slots_step *step_slots, const struct kiln_sim_params *params,
-                          const float4 *words, const float4 *pushes, const float4 *planes,
-                          struct kiln_particle *records, struct kiln_particle *copy,
-                          struct spins *spins, struct traces *traces)
+/* Steps all systems slot by slot, and each from the same state in blocks, at all widths of vectors.
+ * Returns the living. */
+static uint32_t step_both(struct run *run)
 {
+    const struct kiln_sim_params *params = run->params;
     uint32_t alive = 0;
-    forget_traces(traces);
+    forget_traces(&run->traces);
     for (uint32_t k = 0; k < params->system_count; k++) {
         const struct kiln_step_params *step = &params->systems[params->order[k]];
         struct kiln_slots slots = {
             .sim = {.step = step,
                     .surroundings = &params->surroundings,
                     .value_keys = fixture.scene.keys,
-                    .grid_words = words,
-                    .push_words = pushes,
-                    .spin_words = spins->words,
-                    .volume_words = planes},
-            .records = records + step->base,
-            .traces = traces->all,
+                    .grid_words = run->words,
+                    .push_words = run->pushes,
+                    .spin_words = run->spins.words,
+                    .volume_words = run->planes},
+            .records = run->records + step->base,
+            .traces = run->traces.all,
         };
-        if (spins->words)
-            memcpy(spins->copy, spins->words, spins->bytes);
-        const size_t bytes = step->used * sizeof *records;
-        memcpy(copy, slots.records, bytes);
+        if (run->spins.words)
+            memcpy(run->spins.before, run->spins.words, run->spins.bytes);
+        memcpy(run->before, slots.records, step->used * sizeof *run->records);
         if (kiln_sim_is_family(step))
             step_family_one_by_one(&slots);
         else
             step_one_by_one(&slots);
-        slots.records = copy;
-        slots.traces = traces->copy;
-        slots.sim.spin_words = spins->copy;
-        step_in_blocks(step_slots, &slots);
-        assert_memory_equal(copy, records + step->base, bytes);
-        compare_traces(step, traces);
-        if (spins->words)
-            assert_memory_equal(spins->words, spins->copy, spins->bytes);
+        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+            if (kiln_simd_has(simd))
+                compare_blocks(run, simd, &slots);
+        }
         for (uint32_t i = 0; i < step->used; i++)
-            alive += particle_is_alive(copy[i]);
+            alive += particle_is_alive(slots.records[i]);
     }
     return alive;
 }
@@ -155,56 +212,50 @@ static float4 *make_pushes(uint32_t slots)
     return words;
 }
 
-static void run_level(enum kiln_simd simd)
+/* Steps the fixture's scene at all widths of vectors. */
+static void run_levels(void)
 {
     struct kiln_error error = {0};
-    struct simulation run;
-    simulation_start(&run, &fixture.scene, NULL, 1);
+    struct simulation simulation;
+    simulation_start(&simulation, &fixture.scene, NULL, 1);
+    struct kiln_pool *pool = &simulation.pool;
     struct kiln_sim_params *params = malloc(sizeof *params);
-    struct kiln_particle *copy = calloc(run.pool.slot_count, sizeof *copy);
-    struct kiln_particle *records = kiln_buffer_host(&run.pool.records, KILN_READ_WRITE, &error);
-    assert_true(params && copy && records);
     struct kiln_sim_grids grids;
-    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, run.threads, &error));
-    const float4 *words = kiln_buffer_host(&grids.words, KILN_READ, &error);
+    assert_non_null(params);
+    assert_true(kiln_sim_grids_init(&grids, NULL, &fixture.scene, simulation.threads, &error));
     kiln_sim_params_init(params, &fixture.scene, &grids);
     struct kiln_bakes bakes;
     assert_true(kiln_bakes_init(&bakes, NULL, &fixture.scene, &grids, &error));
     float4 *pushes = make_pushes(params->push_count);
-    struct spins spins = make_spins(params->spin_count);
-    struct traces traces = {.count = params->trace_count};
-    traces.all = calloc((size_t)traces.count + 1, sizeof *traces.all);
-    traces.copy = calloc((size_t)traces.count + 1, sizeof *traces.copy);
-    assert_true(traces.all && traces.copy);
+    struct run run = {.params = params,
+                      .words = kiln_buffer_host(&grids.words, KILN_READ, &error),
+                      .pushes = pushes,
+                      .records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, &error),
+                      .before = calloc(pool->slot_count, sizeof *run.before),
+                      .blocks = calloc(pool->slot_count, sizeof *run.blocks),
+                      .spins = make_spins(params->spin_count),
+                      .traces = make_traces(params->trace_count)};
+    assert_true(run.records && run.before && run.blocks);
     uint32_t most = 0;
     for (uint32_t step = 1; step <= STEPS; step++) {
-        assert_true(kiln_volumes_step(&grids.volumes, &fixture.scene, step, run.threads, &error));
-        const float4 *planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
-        assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
-        assert_true(kiln_bakes_step(&bakes, params, run.threads, step, &error));
-        uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes,
-                                   planes, records, copy, &spins, &traces);
+        assert_true(
+            kiln_volumes_step(&grids.volumes, &fixture.scene, step, simulation.threads, &error));
+        run.planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
+        assert_true(kiln_sim_params_step(params, &fixture.scene, pool, step, &error));
+        assert_true(kiln_bakes_step(&bakes, params, simulation.threads, step, &error));
+        const uint32_t alive = step_both(&run);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
     kiln_bakes_finish(&bakes);
     kiln_sim_grids_finish(&grids);
     free(pushes);
-    free(spins.words);
-    free(spins.copy);
-    free(traces.all);
-    free(traces.copy);
-    free(copy);
+    free_spins(&run.spins);
+    free_traces(&run.traces);
+    free(run.before);
+    free(run.blocks);
     free(params);
-    simulation_end(&run);
-}
-
-static void run_levels(void)
-{
-    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
-        if (kiln_simd_has(simd))
-            run_level(simd);
-    }
+    simulation_end(&simulation);
 }
 
 static void velocity_first(void **state)
