@@ -37,24 +37,31 @@ static float3 axis(void)
     return float3_normalize((float3){1.0f, 2.0f, 0.5f}, (float3){0.0f, 1.0f, 0.0f});
 }
 
+static bool is_in(enum kind kind, float3 at, float3 up)
+{
+    if (kind == BOX)
+        return fabsf(at.x) < HALF.x && fabsf(at.y) < HALF.y && fabsf(at.z) < HALF.z;
+    if (kind == SPHERE)
+        return float3_dot(at, at) < RADIUS * RADIUS;
+    const float height = float3_dot(at, up);
+    const float3 aside = float3_add_scaled(at, up, -height);
+    const float square = float3_dot(aside, aside);
+    if (kind == CYLINDER)
+        return fabsf(height) < HALF_HEIGHT && square < RADIUS * RADIUS;
+    if (kind == CONE) {
+        const float width = RADIUS * (HALF_HEIGHT - height) / (2.0f * HALF_HEIGHT);
+        return height > -HALF_HEIGHT && width > 0.0f && square < width * width;
+    }
+    const float beyond = height - fmaxf(fminf(height, HALF_HEIGHT), -HALF_HEIGHT);
+    return square + beyond * beyond < RADIUS * RADIUS;
+}
+
 /* By steps of a centimetre along the ray: slow, and not the way it is computed. */
 static bool hides(enum kind kind, float3 from, float3 direction)
 {
+    const float3 up = axis(), start = float3_sub(from, CENTER);
     for (int i = 0; i < 800; i++) {
-        float3 at = float3_sub(float3_add_scaled(from, direction, 0.01f * (float)i), CENTER);
-        float height = float3_dot(at, axis());
-        float3 aside = float3_add_scaled(at, axis(), -height);
-        bool in_box = fabsf(at.x) < HALF.x && fabsf(at.y) < HALF.y && fabsf(at.z) < HALF.z;
-        bool in_sphere = float3_dot(at, at) < RADIUS * RADIUS;
-        bool in_cylinder =
-            fabsf(height) < HALF_HEIGHT && float3_dot(aside, aside) < RADIUS * RADIUS;
-        float beyond = height - fmaxf(fminf(height, HALF_HEIGHT), -HALF_HEIGHT);
-        bool in_capsule = float3_dot(aside, aside) + beyond * beyond < RADIUS * RADIUS;
-        const float width = RADIUS * (HALF_HEIGHT - height) / (2.0f * HALF_HEIGHT);
-        bool in_cone =
-            height > -HALF_HEIGHT && width > 0.0f && float3_dot(aside, aside) < width * width;
-        const bool inside[] = {in_box, in_sphere, in_cylinder, in_capsule, in_cone};
-        if (inside[kind])
+        if (is_in(kind, float3_add_scaled(start, direction, 0.01f * (float)i), up))
             return true;
     }
     return false;

@@ -23,7 +23,7 @@ $ cat >gas.yaml <<'END'
 > systems:
 >   sparks:
 >     emit: {rate: 40, life: 1 s, from: {disc: {radius: 0.2 m}}}
->     forces: [wind: {gas: fire, pull: 4}]
+>     forces: [wind: {gas: fire, pull: 4, cells: 16}]
 >     look: {atlas: "builtin:spark", blend: add, size: 3 cm}
 > END
 $ kiln render gas.yaml -q -o ref_%02d.png --manifest ref.json
