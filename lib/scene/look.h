@@ -96,8 +96,9 @@ struct kiln_look {
     float motion_full[2];
     const char *motion_layout;
     enum kiln_blend blend;
-    struct kiln_value size;  /* m: edge of the billboard */
-    struct kiln_range scale; /* factor on size, random for each particle */
+    struct kiln_value size;          /* m: edge of the billboard */
+    struct kiln_range scale;         /* factor on size, random for each particle */
+    struct kiln_value width, height; /* of a billboard: factors on size, across and along */
     enum kiln_shape shape;
     struct kiln_look_facing facing; /* of a billboard: how it faces the camera */
     struct kiln_value3 axis;      /* axis of an axial billboard; need not be normalised, not zero */
@@ -146,6 +147,14 @@ static inline bool kiln_look_color_is_source(const struct kiln_look *look)
 static inline bool kiln_look_lies(const struct kiln_look *look)
 {
     return look->shape == KILN_SHAPE_BILLBOARD && look->facing.way == KILN_FACING_SURFACE;
+}
+
+/* Returns whether billboards are not as long as they are wide, apart from a stretch. */
+static inline bool kiln_look_is_formed(const struct kiln_look *look)
+{
+    const struct kiln_value *w = &look->width, *h = &look->height;
+    return look->shape == KILN_SHAPE_BILLBOARD &&
+           (w->count > 0 || h->count > 0 || w->constant != 1.0f || h->constant != 1.0f);
 }
 
 /* Returns whether particles are solid, with other particles in front of or behind them. */

@@ -162,6 +162,12 @@ PUBLIC_TABLE(kiln_options_look) = {
           "that is thinner than a pixel is drawn a pixel wide, and fainter by the same factor."),
     RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, BIRTH(29), "1",
           "Factor on size, chosen at random for each particle."),
+    VALUE(IF_FORMED, "width", width, KILN_PLAIN, 0, 1000, DRAWN(111), "1",
+          "Factor on the size of a billboard across, from its left to its right edge. Shadows and "
+          "light that it sheds are those of its size alone."),
+    VALUE(IF_FORMED, "height", height, KILN_PLAIN, 0, 1000, DRAWN(112), "1",
+          "Factor on the size of a billboard along, from its lower to its upper edge; a stretch "
+          "adds to that."),
     CHOICE(
         LOOK, "shape", shape, shapes, "billboard",
         "`billboard` draws the texture on a quad. `point` and `line` draw a plain colour without a "

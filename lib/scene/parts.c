@@ -73,6 +73,12 @@ unsigned kiln_row_if_it_lies(const void *scene, const void *look)
     return ((const struct kiln_look *)look)->facing.way == KILN_FACING_SURFACE ? BOTH : NEITHER;
 }
 
+unsigned kiln_row_if_formed(const void *scene, const void *look)
+{
+    (void)scene;
+    return kiln_look_is_formed(look) ? NEITHER : 0;
+}
+
 static bool any_collides(const struct kiln_scene *scene)
 {
     bool any = false;

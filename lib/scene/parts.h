@@ -25,6 +25,9 @@ unsigned kiln_row_motion(const void *scene, const void *base);
 unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look);
 unsigned kiln_row_if_it_paints(const void *scene, const void *look);
 unsigned kiln_row_if_it_lies(const void *scene, const void *look);
+
+/* Returns the bit of the hash if a look has keys that older versions lack, and otherwise 0. */
+unsigned kiln_row_if_formed(const void *scene, const void *look);
 unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object);
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
@@ -90,6 +93,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_CONTACTS_ARE_AS_DRAWN kiln_row_if_contacts_are_as_drawn
 #define IF_IT_PAINTS             kiln_row_if_it_paints
 #define IF_IT_LIES               kiln_row_if_it_lies
+#define IF_FORMED                kiln_row_if_formed
 #define IF_PARTICLES_HIT_OBJECT  kiln_row_if_particles_hit_object
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 #define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned

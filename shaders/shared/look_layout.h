@@ -21,7 +21,8 @@
 #define KILN_LOOK_TURN   6 /* rotation, least and most, rad; point, line width, px */
 #define KILN_LOOK_AXIS   7 /* axis or normal, unit vector in the world; unused */
 #define KILN_LOOK_OTHER  8 /* second colour of a sphere's pattern, rgb; lit */
-#define KILN_LOOK_ROWS   9
+#define KILN_LOOK_FORM   9 /* factors on size across and along; unused. Read if LOOK_FORMED */
+#define KILN_LOOK_ROWS   10
 
 /* Values over other clocks than life lie behind the rows of all systems
  * (lib/draw/moment/look_values.h). A system that has some has two rows with the texels below, and
@@ -62,6 +63,7 @@
 /* Bits of `flags.y` of a look. */
 #define LOOK_RANDOM_START 1u /* each particle starts at a cell of its own */
 #define LOOK_UNMIRRORED   2u /* no billboard is mirrored */
+#define LOOK_FORMED       4u /* billboards are not as long as wide: KILN_LOOK_FORM */
 
 /* Patterns of spheres: none, a stripe, or segments of each colour. */
 #define LOOK_PLAIN    0u

@@ -229,7 +229,7 @@ static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
     s->layers[0] = texture.x + first % texture.y;
     s->layers[1] = texture.x + (first + 1) % texture.y;
     s->part = (double)position - first;
-    s->level = (uint32_t)floor(log2(fmax(KILN_ATLAS_CELL / fmax(width_px, 1), 1)));
+    s->level = (uint32_t)floor(log2(fmax(KILN_ATLAS_CELL / fmax(fmin(width_px, length_px), 1), 1)));
     s->columns = s->rows = KILN_ATLAS_CELL >> s->level;
     if (width_px <= 2 && length_px >= 4) {
         s->level = KILN_STRIP_LEVEL;
@@ -404,10 +404,11 @@ static void true_turn(const struct true_scene *t, struct true_subject *p, struct
     const bool mirrors = (p->look->flags.y & LOOK_UNMIRRORED) == 0;
     p->axes[0] = backwards && mirrors ? dvec_scale(sideways, -1) : sideways;
     p->axes[1] = upwards;
-    s->right = dvec_scale(p->axes[0], p->half_size);
-    s->up = dvec_scale(p->axes[1], p->half_size + longer);
+    const double *form = p->row[KILN_LOOK_FORM];
+    s->right = dvec_scale(p->axes[0], p->half_size * form[0]);
+    s->up = dvec_scale(p->axes[1], p->half_size * form[1] + longer);
     if (p->look->form.x == 0 && p->look->form.w != 0)
-        s->opacity *= p->half_size / (p->half_size + longer);
+        s->opacity *= p->half_size / (p->half_size + longer / form[1]);
 }
 
 static void true_read(const struct true_scene *t, uint32_t entry,
@@ -447,14 +448,15 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
     p.scale = true_between(&p, RANDOM_SCALE, spread[0], spread[1]);
     p.half_size = 0.5 * shape[0] * p.scale;
     p.diameter_px = 2 * p.half_size * pixels_per_m;
-    s->half_size = p.half_size;
+    const bool formed = (p.look->flags.y & LOOK_FORMED) != 0;
+    s->half_size = p.half_size * (formed ? p.row[KILN_LOOK_FORM][0] : 1);
     s->slant = 1;
     true_turn(t, &p, s);
     true_color(t, s, (double const(*)[4])p.row, p.position);
-    s->bulge = p.half_size * p.row[KILN_LOOK_BLOOM][3];
+    s->bulge = s->half_size * p.row[KILN_LOOK_BLOOM][3];
     s->distance = sqrt(dvec_dot(s->center, s->center));
     true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
-                      p.diameter_px * s->slant,
+                      2 * s->half_size * pixels_per_m * s->slant,
                       2 * sqrt(dvec_dot(s->up, s->up)) * pixels_per_m * s->slant);
     true_light(t, s, p.row[KILN_LOOK_COVER], KILN_ENTRY_SLOT(entry), p.position, p.axes);
     if (p.look->form.x != 0) {

@@ -54,13 +54,19 @@ static void an_axis_has_any_length_but_0(void **state)
     struct kiln_scene *scene = load_scene("kiln: 1\n"
                                           "systems:\n"
                                           "  a: {look: {axis: [3e-30, 0, 4e-30]}}\n"
-                                          "  b: {look: {axis: [0, 0, -1e5]}}\n",
+                                          "  b: {look: {axis: [0, 0, -1e5]}}\n"
+                                          "  c: {look: {facing: {normal: [0, 3, -4]},\n"
+                                          "             width: {life: [1, 3]}, height: 0.5}}\n",
                                           NULL);
     kiln_looks_sample(scene, 0, table);
     assert_near(texel(0, KILN_LOOK_AXIS, 5).x, 0.6);
     assert_near(texel(0, KILN_LOOK_AXIS, 5).y, 0);
     assert_near(texel(0, KILN_LOOK_AXIS, 5).z, 0.8);
     assert_near(texel(1, KILN_LOOK_AXIS, 5).z, -1);
+    assert_near(texel(2, KILN_LOOK_AXIS, 5).y, 0.6);
+    assert_near(texel(2, KILN_LOOK_AXIS, 5).z, -0.8);
+    assert_near(texel(2, KILN_LOOK_FORM, KILN_LOOK_SAMPLES - 1).x, 3);
+    assert_near(texel(2, KILN_LOOK_FORM, KILN_LOOK_SAMPLES - 1).y, 0.5);
     kiln_scene_destroy(&scene);
 }
 

@@ -66,6 +66,8 @@ static const struct scalar_place scalars[] = {
     SCALAR(rotation.max, KILN_LOOK_TURN, Y),
     SCALAR(point_size, KILN_LOOK_TURN, Z),
     SCALAR(line_width, KILN_LOOK_TURN, W),
+    SCALAR(width, KILN_LOOK_FORM, X),
+    SCALAR(height, KILN_LOOK_FORM, Y),
     {offsetof(struct kiln_look, spin.min), {KILN_LOOK_SPREAD, Z, OF_ANY, PLAIN}, true},
     {offsetof(struct kiln_look, spin.max), {KILN_LOOK_SPREAD, W, OF_ANY, PLAIN}, true},
     {offsetof(struct kiln_look, temperature), {KILN_LOOK_HOT, ALL_OF_COLOR, OF_ANY, HOT}, false},

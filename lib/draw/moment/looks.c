@@ -126,6 +126,7 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
                                    at(s, &look->point_size), at(s, &look->line_width)};
     const bool normal = look->facing.way == KILN_FACING_NORMAL;
     row[KILN_LOOK_AXIS] = unit(at3(s, normal ? &look->facing.normal : &look->axis));
+    row[KILN_LOOK_FORM] = (float4){at(s, &look->width), at(s, &look->height), 0.0f, 0.0f};
     sample_light(s, look, row);
 }
 
@@ -158,9 +159,10 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
 static uint32_t look_uses(const float4 *keys, const struct kiln_look *look)
 {
     const struct kiln_value *values[] = {
-        &look->size,      &look->stretch,    &look->cycles,     &look->opacity,  &look->temperature,
-        &look->intensity, &look->fade_in,    &look->fade_out,   &look->soft,     &look->near_fade,
-        &look->lit,       &look->point_size, &look->line_width, &look->thickness};
+        &look->size,        &look->stretch,   &look->cycles,  &look->opacity,
+        &look->temperature, &look->intensity, &look->fade_in, &look->fade_out,
+        &look->soft,        &look->near_fade, &look->lit,     &look->point_size,
+        &look->line_width,  &look->thickness, &look->width,   &look->height};
     const struct kiln_value3 *vectors[] = {&look->color, &look->bloom, &look->axis,
                                            &look->facing.normal, &look->sphere.color};
     uint32_t uses = kiln_range_uses(keys, &look->scale) | kiln_range_uses(keys, &look->rotation) |
@@ -219,7 +221,8 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
         .derived = kiln_scene_derived(scene, index),
         .flags = {look->blend == KILN_BLEND_ADD,
                   (look->random_start ? LOOK_RANDOM_START : 0) |
-                      (kiln_look_is_picture(look) ? LOOK_UNMIRRORED : 0),
+                      (kiln_look_is_picture(look) ? LOOK_UNMIRRORED : 0) |
+                      (kiln_look_is_formed(look) ? LOOK_FORMED : 0),
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
         .form = {look->shape, look->facing.way, look->point_round,
                  look->shape == KILN_SHAPE_LINE ? look->line_to == KILN_LINE_PREVIOUS

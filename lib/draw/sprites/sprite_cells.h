@@ -30,7 +30,7 @@ SIMD struct columns choose_textures(const struct sprite_lanes *p)
  * that is not below the width in pixels; or that of the strip. */
 SIMD vi level_of(vf width_px, vf length_px)
 {
-    vi bits = (vi)vf_clamp(width_px, 1.0f, (float)KILN_ATLAS_CELL);
+    vi bits = (vi)vf_clamp(vf_min(width_px, length_px), 1.0f, (float)KILN_ATLAS_CELL);
     vi level = KILN_ATLAS_LEVELS - 1 - (((bits - 1) >> 23) - 126);
     return vi_select(billboard_shows_strip(width_px, length_px), vi_all(KILN_STRIP_LEVEL), level);
 }

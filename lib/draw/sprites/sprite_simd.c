@@ -65,7 +65,13 @@ static void turn_billboards(struct sprite_lanes *p)
     vf side = billboard_side(vu_unit(p->stream, RANDOM_SPIN + 1u));
     const vf turned_s = vf_turned(&p->record, p->age_s, p->pass->view->clock.y);
     const struct vf_angle rotation = vf_sincos(angle + spin * side * turned_s);
-    struct billboard_edge edge = {-rotation.sine, rotation.cosine, p->half_size};
+    vf half_width = p->half_size, half_length = p->half_size;
+    if ((p->look->flags.y & LOOK_FORMED) != 0) {
+        const struct columns form = look_row(p, KILN_LOOK_FORM);
+        half_width *= form.c[0];
+        half_length *= form.c[1];
+    }
+    struct billboard_edge edge = {-rotation.sine, rotation.cosine, half_length};
     if (some_stretch(p)) {
         struct vf3 moving = to_view(p->pass->view, vf_heading(&p->record));
         edge =
@@ -74,7 +80,8 @@ static void turn_billboards(struct sprite_lanes *p)
     }
     p->half_length = edge.half_length;
     if (p->look->form.x == 0 && p->look->form.w != 0)
-        p->words[WORD_OF(opacity)] *= billboard_dimming(p->half_size, edge.half_length);
+        p->words[WORD_OF(opacity)] *= billboard_dimming(half_length, edge.half_length);
+    p->half_size = half_width;
     if ((p->look->flags.y & LOOK_UNMIRRORED) != 0)
         side = vf_all(1.0f);
     p->plane = billboard_rotated(plane, edge, side);

@@ -125,7 +125,7 @@ vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream
         position += random_unit(stream, RANDOM_CELL) * cells;
     float first = floor(position);
     float base = float(atlas.x);
-    float level = floor(log2(max(float(KILN_ATLAS_CELL) / max(size.x, 1.0), 1.0)));
+    float level = floor(log2(max(float(KILN_ATLAS_CELL) / max(min(size.x, size.y), 1.0), 1.0)));
     if (billboard_shows_strip(size.x, size.y))
         level = float(KILN_STRIP_LEVEL);
     return vec4(base + mod(first, cells), base + mod(first + 1.0, cells), position - first, level);
@@ -208,13 +208,19 @@ void make_billboard(uint entry)
 #endif
     vec3 moving = world_to_view_vector(particle_heading(record));
     float stretch = particle_has_stopped(record) ? 0.0 : shape.y;
-    billboard_edge edge = billboard_edge(-sin(angle), cos(angle), half_size);
+    float half_length = half_size;
+    if ((looks[system].flags.y & LOOK_FORMED) != 0u) {
+        vec4 formed = look_at(system, KILN_LOOK_FORM, life);
+        half_length *= formed.y;
+        half_size *= formed.x;
+    }
+    billboard_edge edge = billboard_edge(-sin(angle), cos(angle), half_length);
     edge = billboard_stretched(form.y, edge, stretch, dot(moving, plane.right),
                                dot(moving, plane.up));
     float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
     float opacity = shape.z;
     if (form.x == 0u && form.w != 0u)
-        opacity *= billboard_dimming(half_size, edge.half_length);
+        opacity *= billboard_dimming(half_length, edge.half_length);
     billboard_size size = billboard_size(half_size, edge.half_length, 1.0);
     if (view.clock.w < 1.0 && form.x == 0u) /* a billboard in a picture smaller than the frame */
         size = billboard_widened(size.half_width, size.half_length, pixels_per_m);
