@@ -333,8 +333,9 @@ static void every_row_tells_the_truth(void **state)
         if (is_group || one_value) /* nothing about it can be changed */
             continue;
         /* A row of the view may change the state by way of another row: rate: auto. */
-        const bool looks =
-            seen->row->parts == kiln_row_look || seen->row->parts == kiln_row_if_light_is_attached;
+        const bool looks = seen->row->parts == kiln_row_look ||
+                           seen->row->parts == kiln_row_if_formed ||
+                           seen->row->parts == kiln_row_if_light_is_attached;
         const bool moves = !looks && seen->row->parts != kiln_row_view &&
                            seen->row->parts != kiln_row_if_camera_is_attached;
         if (!seen->changed)
