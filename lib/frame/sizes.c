@@ -47,6 +47,24 @@ static uint32_t count_meshes(const struct kiln_scene *scene)
     return count;
 }
 
+/* Refuses ribbons for a sort whose order lags behind: the parts of a ribbon would be blended in any
+ * order. */
+static bool check_ribbons(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
+                          struct kiln_error *error)
+{
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        if (techniques->sort == KILN_SORT_SPREAD && system->enabled &&
+            system->look.shape == KILN_SHAPE_RIBBON)
+            return kiln_error_set(
+                error, KILN_USAGE,
+                "systems.%s.look.shape: ribbon: a sort that is spread over frames "
+                "takes no ribbons: use sort=radix",
+                system->name);
+    }
+    return true;
+}
+
 /* Checks what the whole device must take, whichever of its techniques run. */
 static bool check_device(const struct kiln_scene *scene, const struct kiln_techniques *techniques,
                          struct kiln_error *error)
@@ -95,5 +113,5 @@ bool kiln_sizes_check(const struct kiln_scene *scene, const struct kiln_techniqu
                 error, KILN_USAGE, "%s: found %u %s; the technique %s takes at most %u: use %s",
                 rows[i].path, rows[i].found, rows[i].noun, paper, rows[i].most, instead);
     }
-    return check_device(scene, techniques, error);
+    return check_ribbons(scene, techniques, error) && check_device(scene, techniques, error);
 }

@@ -77,8 +77,8 @@ static void list_requests(const struct kiln_scene *scene,
                                         .motion = look->motion,
                                         .motion_full = {look->motion_full[0], look->motion_full[1]},
                                         .loader = scene->loader};
-        if (look->shape != KILN_SHAPE_BILLBOARD) /* such particles show no texture and get the
-                                                  * smallest one */
+        if (!kiln_look_has_texture(look)) /* such particles show no texture and get the
+                                           * smallest one */
             requests[i] = (struct kiln_atlas_request){
                 .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
     }

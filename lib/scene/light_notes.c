@@ -40,7 +40,7 @@ static float times_of(const struct kiln_scene *scene, const struct kiln_look *lo
                         0.7152f * kiln_scene_value_max(scene, &look->light.y) +
                         0.0722f * kiln_scene_value_max(scene, &look->light.z);
     float times = 0.0f;
-    if (look->shape != KILN_SHAPE_BILLBOARD)
+    if (!kiln_look_has_texture(look))
         return light;
     for (uint32_t i = 0; i < look->atlas_count; i++)
         times += kiln_light_times(look->atlas[i]) / (float)look->atlas_count;

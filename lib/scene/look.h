@@ -22,6 +22,24 @@ enum kiln_shape {
     KILN_SHAPE_LINE,   /* from the particle back along its path */
     KILN_SHAPE_SPHERE, /* opaque, lit like the backdrop */
     KILN_SHAPE_MESH,   /* a mesh from a file, opaque, lit like the backdrop */
+    KILN_SHAPE_RIBBON, /* strips through the particles in the order of their births */
+};
+
+/* What a ribbon turns its face to. */
+enum kiln_ribbon_facing {
+    KILN_RIBBON_CAMERA,
+    KILN_RIBBON_NORMAL, /* the look's axis */
+};
+
+enum { KILN_RIBBON_MOST_SMOOTH = 16 };
+
+/* How ribbons look. */
+struct kiln_look_ribbon {
+    enum kiln_ribbon_facing facing;
+    uint32_t smooth;  /* parts that each segment is drawn as; 1: straight segments */
+    double texture_m; /* length of the texture along the ribbon; 0: it is stretched over it */
+    double taper[2];  /* factors on the width at the older and at the younger end */
+    double gap_m;     /* longer segments are not drawn; 0: all are */
 };
 
 /* How a mesh that is a particle is oriented. Its own z axis is ahead and y is up. */
@@ -108,6 +126,7 @@ struct kiln_look {
     enum kiln_line_to line_to;
     struct kiln_look_sphere sphere;
     struct kiln_look_mesh mesh;
+    struct kiln_look_ribbon ribbon;
     /* s: a billboard is longer along the velocity by speed * stretch; 0: square */
     struct kiln_value stretch;
     bool stretch_dims;                   /* of a billboard: it is as much fainter as longer */
@@ -155,6 +174,12 @@ static inline bool kiln_look_is_formed(const struct kiln_look *look)
     const struct kiln_value *w = &look->width, *h = &look->height;
     return look->shape == KILN_SHAPE_BILLBOARD &&
            (w->count > 0 || h->count > 0 || w->constant != 1.0f || h->constant != 1.0f);
+}
+
+/* Returns whether particles show a texture. */
+static inline bool kiln_look_has_texture(const struct kiln_look *look)
+{
+    return look->shape == KILN_SHAPE_BILLBOARD || look->shape == KILN_SHAPE_RIBBON;
 }
 
 /* Returns whether particles are solid, with other particles in front of or behind them. */

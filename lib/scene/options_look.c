@@ -14,8 +14,19 @@ static const char *const blends[] = {
 };
 
 static const char *const shapes[] = {
-    [KILN_SHAPE_BILLBOARD] = "billboard", [KILN_SHAPE_POINT] = "point", [KILN_SHAPE_LINE] = "line",
-    [KILN_SHAPE_SPHERE] = "sphere",       [KILN_SHAPE_MESH] = "mesh",   NULL,
+    [KILN_SHAPE_BILLBOARD] = "billboard",
+    [KILN_SHAPE_POINT] = "point",
+    [KILN_SHAPE_LINE] = "line",
+    [KILN_SHAPE_SPHERE] = "sphere",
+    [KILN_SHAPE_MESH] = "mesh",
+    [KILN_SHAPE_RIBBON] = "ribbon",
+    NULL,
+};
+
+static const char *const ribbon_facings[] = {
+    [KILN_RIBBON_CAMERA] = "camera",
+    [KILN_RIBBON_NORMAL] = "normal",
+    NULL,
 };
 
 static const char *const facings[] = {
@@ -106,6 +117,34 @@ TABLE(sphere) = {
     END,
 };
 
+TABLE(taper) = {
+    {ROW(LOOK, "tail", number, ribbon.taper[0], "0",
+         "Factor on the width at the end of the oldest particles."),
+     LIMITS(KILN_PLAIN, 0, 100)},
+    {ROW(LOOK, "head", number, ribbon.taper[1], "1",
+         "Factor on the width at the end of the youngest particles."),
+     LIMITS(KILN_PLAIN, 0, 100)},
+    END,
+};
+
+TABLE(ribbon) = {
+    CHOICE(LOOK, "facing", ribbon.facing, ribbon_facings, "camera",
+           "`camera` turns the face of a ribbon to the eye. `normal` turns it to look.axis: the "
+           "ribbon lies in a plane at right angles to it where its particles do."),
+    INTEGER(LOOK, "smooth", ribbon.smooth, 1, KILN_RIBBON_MOST_SMOOTH, "4",
+            "Parts of the curve between two particles. 1 joins them by straight segments."),
+    {ROW(LOOK, "texture", number, ribbon.texture_m, "0 m",
+         "Length of the texture along the ribbon, which repeats it; it needs births by the metre. "
+         "0 stretches the texture over the ribbon, from its youngest particle to the end of "
+         "life, or from the first particle of a burst to the last."),
+     LIMITS(KILN_METRES, 0, 1000)},
+    GROUP(LOOK, "taper", taper, "How the width changes along a ribbon, besides look.size."),
+    {ROW(LOOK, "gap", number, ribbon.gap_m, "0 m",
+         "A ribbon is cut between particles that are farther from each other; 0 never cuts it."),
+     LIMITS(KILN_METRES, 0, FAR)},
+    END,
+};
+
 static const char *const soft_formulas[] = {
     [KILN_SOFT_CLAMPED] = "clamped",
     [KILN_SOFT_LITERAL] = "literal",
@@ -158,7 +197,8 @@ PUBLIC_TABLE(kiln_options_look) = {
            "`alpha` covers what is behind the particle, like smoke. `add` adds light to it, like "
            "fire."),
     VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, DRAWN(28), "0.5 m",
-          "Edge length of a billboard, diameter of a sphere, longest edge of a mesh. A billboard "
+          "Edge length of a billboard, width of a ribbon, diameter of a sphere, longest edge of a "
+          "mesh. A billboard "
           "that is thinner than a pixel is drawn a pixel wide, and fainter by the same factor."),
     RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, BIRTH(29), "1",
           "Factor on size, chosen at random for each particle."),
@@ -171,7 +211,10 @@ PUBLIC_TABLE(kiln_options_look) = {
     CHOICE(
         LOOK, "shape", shape, shapes, "billboard",
         "`billboard` draws the texture on a quad. `point` and `line` draw a plain colour without a "
-        "texture. `sphere` and `mesh` are opaque, lit like the backdrop, and become smaller where "
+        "texture. `ribbon` draws strips through the particles in the order of their births, as "
+        "wide as "
+        "their size. `sphere` and `mesh` are opaque, lit like the backdrop, and become smaller "
+        "where "
         "opacity and fade would make them transparent."),
     {ROW(IF_IT_LIES, "facing", facing, facing, "screen",
          "How a billboard is turned. `screen`, `viewplane` and `velocity` are parallel to the "
@@ -187,6 +230,7 @@ PUBLIC_TABLE(kiln_options_look) = {
     GROUP(LOOK, "point", point, "How points look."),
     GROUP(LOOK, "line", line, "How lines look."),
     GROUP(LOOK, "sphere", sphere, "How spheres look."),
+    GROUP(LOOK, "ribbon", ribbon, "How ribbons look."),
     GROUP(LOOK, "mesh", mesh,
           "How meshes look. All of them are instances of one mesh from a file."),
     VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, DRAWN(31), "0 s",

@@ -22,6 +22,7 @@
 #include "scene/options.h"
 #include "scene/particle_mesh.h"
 #include "scene/regions.h"
+#include "scene/ribbon.h"
 #include "scene/samples.h"
 #include "scene/scene_births.h"
 #include "scene/source.h"
@@ -267,7 +268,7 @@ static bool check_cells(struct kiln_reader *reader, const struct kiln_node *root
                         const struct kiln_system *system)
 {
     const struct kiln_look *look = &system->look;
-    if (look->shape != KILN_SHAPE_BILLBOARD)
+    if (!kiln_look_has_texture(look))
         return true;
     for (uint32_t i = 0; i < look->atlas_count; i++) {
         if (!check_division(reader, root, system, look->atlas[i]))
@@ -580,7 +581,8 @@ bool kiln_validate(struct kiln_reader *reader, const struct kiln_node *root)
     return settle_clock(reader, root) && kiln_nodes_settle(reader, root) &&
            check_camera(reader, root) && check_backdrop(reader, root) &&
            check_systems(reader, root) && kiln_family_settle(reader, root) &&
-           kiln_gas_settle(reader, root) && kiln_sources_settle(reader, root) &&
-           kiln_emit_ways_settle(reader, root) && settle_capacity(reader, root) &&
-           kiln_particle_mesh_count(reader, root) && kiln_samples_settle(reader, root);
+           kiln_ribbons_check(reader, root) && kiln_gas_settle(reader, root) &&
+           kiln_sources_settle(reader, root) && kiln_emit_ways_settle(reader, root) &&
+           settle_capacity(reader, root) && kiln_particle_mesh_count(reader, root) &&
+           kiln_samples_settle(reader, root);
 }

@@ -65,7 +65,13 @@ uint64_t kiln_scene_mesh_slots(const struct kiln_scene *scene)
 
 uint64_t kiln_scene_sprite_slots(const struct kiln_scene *scene)
 {
-    return count_slots(scene, is_sprite);
+    uint64_t slots = count_slots(scene, is_sprite);
+    for (uint32_t i = 0; i < scene->system_count; i++) { /* a sprite for each part of a segment */
+        const struct kiln_system *system = &scene->systems[i];
+        if (system->enabled && system->look.shape == KILN_SHAPE_RIBBON)
+            slots += (uint64_t)system->capacity * (system->look.ribbon.smooth - 1);
+    }
+    return slots;
 }
 
 /* ---- facts ----------------------------------------------------------------------------------- */

@@ -53,6 +53,7 @@
 #define LOOK_POINT     1u
 #define LOOK_LINE      2u
 #define LOOK_MESH      4u
+#define LOOK_RIBBON    5u
 #define LOOK_SCREEN    0u
 #define LOOK_VIEWPOINT 2u
 #define LOOK_AXIAL     3u
@@ -77,6 +78,16 @@
 #define LOOK_PARENT_RECORD(values, serial)                                                         \
     ((values).y + (serial) / LOOK_PARENT_SLOTS((values).w) % (values).z)
 
+/* Parts of the words of `ribbon`. Rows of the table have other numbers of ribbons where those of
+ * billboards are: KILN_LOOK_SHAPE the longest segment, m, or 0, in place of the stretch;
+ * KILN_LOOK_TURN the factors on the width at the tail and at the head, and textures a metre or 0.
+ */
+#define LOOK_RIBBON_SLOT(word)  ((word)&0x3ffffffu)
+#define LOOK_RIBBON_PARTS(word) (((word) >> 26u) + 1u)
+#define LOOK_RIBBON_NORMAL      0x04000000u /* the face is turned to the axis, not to the eye */
+#define LOOK_RIBBON_COUNTED     0x08000000u /* places are counted, and do not follow from ages */
+#define LOOK_RIBBON_JOINS       0x10000000u /* the youngest particle is joined to its parent */
+
 /* The part of a look that is the same at any age. */
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* parameters for the progress of life */
@@ -88,6 +99,9 @@ struct kiln_draw_look {
                   /* system; slots of one parent's children + the parent's system << 26 */
     uint4 turn;   /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
                   /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
+    uint4 ribbon; /* first record of the system + (parts of a segment - 1) << 26; capacity of the */
+                  /* system + LOOK_RIBBON_*; serials of a ribbon, or 0; 2^32 textures from one */
+                  /* particle to the next, or 0 */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */
                                        /* scales the motion */
 };

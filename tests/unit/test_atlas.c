@@ -104,6 +104,12 @@ static float mean_density(const struct book *book, uint32_t cell)
     return sum / (EDGE * EDGE);
 }
 
+/* Returns whether a flipbook is for ribbons, which go on where their cells end. */
+static bool is_for_ribbons(const char *name)
+{
+    return strcmp(name, "trail") == 0 || strcmp(name, "band") == 0;
+}
+
 /* Each value is in its range, nothing touches the cell's border (a quad's edge must not show), and
  * some cell is well covered. */
 static void cells_are_sound(void **state)
@@ -117,7 +123,8 @@ static void cells_are_sound(void **state)
             assert_true(p[0] * p[0] + p[1] * p[1] < 1.0f);
             assert_true(p[2] >= 0.0f && p[2] <= 1.0f && p[3] >= 0.0f && p[3] <= 1.0f);
             size_t x = i % EDGE, y = i / EDGE % EDGE;
-            if (x == 0 || y == 0 || x == EDGE - 1 || y == EDGE - 1)
+            const bool beside = !is_for_ribbons(kiln_builtin_name_at(n));
+            if (y == 0 || y == EDGE - 1 || (beside && (x == 0 || x == EDGE - 1)))
                 assert_true(p[3] < 0.01f);
             densest = fmaxf(densest, p[3]);
         }

@@ -16,7 +16,8 @@
     "\"builtin:fire\", \"builtin:flame\", \"builtin:tongue\", \"builtin:smoke\", "                 \
     "\"builtin:puff\", "                                                                           \
     "\"builtin:spark\", \"builtin:star\", \"builtin:drop\", \"builtin:splash\", "                  \
-    "\"builtin:debris\", or the path of an image or video file, "                                  \
+    "\"builtin:debris\", \"builtin:trail\", \"builtin:band\", or the path of an image or video "   \
+    "file, "                                                                                       \
     "from the scene's folder and inside it; or a list of 1 to 8 of these"
 
 #define FOUR(name, first)                                                                          \
@@ -314,7 +315,8 @@ static const struct bad units[] = {
      ":2:18: output.frames: unit 's' is wrong; this number takes no unit"},
     {"kiln: 1\n"
      "systems: {a: {look: {shape: ball}}}\n",
-     ":2:29: systems.a.look.shape: expected billboard, point, line, sphere or mesh, found 'ball'"},
+     ":2:29: systems.a.look.shape: expected billboard, point, line, sphere, mesh or ribbon, found "
+     "'ball'"},
     {"kiln: 1\n"
      "systems: {a: {look: {facing: {normal: [0, 0, 0]}}}}\n",
      ":2:39: systems.a.look.facing.normal: must not be [0, 0, 0]"},

@@ -236,7 +236,8 @@ static void assert_same(struct kiln_sprites a, struct kiln_sprites b)
 static void compare_levels(struct fixture *f)
 {
     const struct kiln_sprites plain = alloc_sprites(), other = alloc_sprites();
-    KILN_SIMD_PICK(kiln_sprites_make, kiln_simd_narrowest())(&f->pass, f->entries, COUNT, plain);
+    KILN_SIMD_PICK(kiln_sprites_make, kiln_simd_narrowest())
+    (&f->pass, f->entries, NULL, COUNT, plain);
     size_t seen = 0;
     for (size_t i = 0; i < COUNT; i++)
         seen += plain.sprites[i].x_from < plain.sprites[i].x_to;
@@ -248,11 +249,11 @@ static void compare_levels(struct fixture *f)
         }
         kiln_sprites_make *make = KILN_SIMD_PICK(kiln_sprites_make, simd);
         spoil(other);
-        make(&f->pass, f->entries, COUNT, other);
+        make(&f->pass, f->entries, NULL, COUNT, other);
         assert_same(plain, other);
         spoil(other);
         for (size_t i = 0; i < COUNT; i += 1 + i % 23) /* other particles beside them */
-            make(&f->pass, f->entries + i, COUNT - i < 23 ? COUNT - i : 1 + i % 23,
+            make(&f->pass, f->entries + i, NULL, COUNT - i < 23 ? COUNT - i : 1 + i % 23,
                  kiln_sprites_from(other, i));
         assert_same(plain, other);
     }

@@ -56,7 +56,7 @@ struct builtin {
  * NULL name ends the list. Messages and pages list the flipbooks in this order: those that burn
  * come first. */
 struct builtin_list {
-    struct builtin builtins[6];
+    struct builtin builtins[8];
 };
 KILN_SIMD_DECLARE(const struct builtin_list, kiln_builtin_gases);
 KILN_SIMD_DECLARE(const struct builtin_list, kiln_builtin_solids);

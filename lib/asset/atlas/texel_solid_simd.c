@@ -127,11 +127,36 @@ static void debris_texels(const struct texel_sites *restrict s, struct texels *r
     }
 }
 
+/* Draws what follows a spark, for ribbons: a hot line with a faint halo, the same all along. */
+static void trail_texels(const struct texel_sites *restrict s, struct texels *restrict out)
+{
+    const float v2 = s->v * s->v;
+    const float core = texel_saturate(1.0f - v2 / 0.16f), halo = texel_saturate(1.0f - v2);
+    for (uint32_t i = 0; i < s->count; i++) {
+        out->height[i] = 0.0f;
+        out->heat[i] = core;
+        out->density[i] = 0.75f * core * core + 0.25f * halo * halo * halo;
+    }
+}
+
+/* Draws an even strip with soft edges, for ribbons of cloth, smoke and water. */
+static void band_texels(const struct texel_sites *restrict s, struct texels *restrict out)
+{
+    const float v2 = s->v * s->v, cover = texel_smooth(1.0f, 0.6f, v2);
+    for (uint32_t i = 0; i < s->count; i++) {
+        out->height[i] = 0.0f;
+        out->heat[i] = 1.0f;
+        out->density[i] = cover;
+    }
+}
+
 const struct builtin_list KILN_SIMD_NAME(kiln_builtin_solids) = {{
     {.name = "spark", .texels = spark_texels},
     {.name = "star", .texels = star_texels},
     {.name = "drop", .texels = drop_texels, .relief = 18.0f},
     {.name = "splash", .texels = splash_texels, .relief = 6.0f},
     {.name = "debris", .texels = debris_texels, .relief = 40.0f},
+    {.name = "trail", .texels = trail_texels},
+    {.name = "band", .texels = band_texels},
     {0},
 }};

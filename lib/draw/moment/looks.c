@@ -9,12 +9,14 @@
 #include "asset/atlas/blackbody.h"
 #include "scene/family.h"
 #include "scene/look_defaults.h"
+#include "scene/ribbon.h"
 #include "shared/exact.h"
 
 static_assert(KILN_MAX_PARTICLES <= 0x3ffffff && KILN_MAX_SYSTEMS <= 64, "LOOK_PARENT_SLOTS");
 static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
-                  LOOK_MESH == KILN_SHAPE_MESH,
+                  LOOK_MESH == KILN_SHAPE_MESH && LOOK_RIBBON == KILN_SHAPE_RIBBON,
               "shapes");
+static_assert(KILN_RIBBON_MOST_SMOOTH <= 64, "6 bits of a word");
 static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING_VIEWPOINT &&
                   LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY &&
                   LOOK_SURFACE == KILN_FACING_SURFACE && LOOK_NORMAL == KILN_FACING_NORMAL,
@@ -113,6 +115,16 @@ static float4 unit(float3 v)
     return (float4){(float)(x / length), (float)(y / length), (float)(z / length), 0.0f};
 }
 
+/* Puts numbers of ribbons in the place of those that only other shapes have. */
+static void sample_ribbon(const struct kiln_look *look, float4 row[KILN_LOOK_ROWS])
+{
+    const struct kiln_look_ribbon *ribbon = &look->ribbon;
+    const double textures_a_metre = ribbon->texture_m > 0.0 ? 1.0 / ribbon->texture_m : 0.0;
+    row[KILN_LOOK_SHAPE].y = (float)ribbon->gap_m;
+    row[KILN_LOOK_TURN] =
+        (float4){(float)ribbon->taper[0], (float)ribbon->taper[1], (float)textures_a_metre, 0.0f};
+}
+
 static void sample_look(const struct sampler *s, const struct kiln_look *look,
                         float4 row[KILN_LOOK_ROWS])
 {
@@ -127,6 +139,8 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
     const bool normal = look->facing.way == KILN_FACING_NORMAL;
     row[KILN_LOOK_AXIS] = unit(at3(s, normal ? &look->facing.normal : &look->axis));
     row[KILN_LOOK_FORM] = (float4){at(s, &look->width), at(s, &look->height), 0.0f, 0.0f};
+    if (look->shape == KILN_SHAPE_RIBBON)
+        sample_ribbon(look, row);
     sample_light(s, look, row);
 }
 
@@ -239,15 +253,46 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
     return made;
 }
 
+/* Returns the number of the first record of a system. */
+static uint32_t first_record(const struct kiln_scene *scene, uint32_t index)
+{
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < index; i++)
+        first += scene->systems[i].capacity;
+    return first;
+}
+
+/* Returns `ribbon` of a look. */
+static uint4 ribbon_of(const struct kiln_scene *scene, uint32_t index)
+{
+    const struct kiln_system *system = &scene->systems[index];
+    const struct kiln_look_ribbon *ribbon = &system->look.ribbon;
+    if (system->look.shape != KILN_SHAPE_RIBBON)
+        return (uint4){0};
+    uint32_t flags = ribbon->facing == KILN_RIBBON_NORMAL ? LOOK_RIBBON_NORMAL : 0;
+    flags |= kiln_ribbon_is_at_once(system) ? LOOK_RIBBON_COUNTED : 0;
+    flags |= kiln_ribbon_joins_parent(system) ? LOOK_RIBBON_JOINS : 0;
+    uint32_t textures = 0;
+    if (ribbon->texture_m > 0.0) {
+        const double step = 1.0 / (ribbon->texture_m * kiln_ribbon_per_metre(system));
+        const double part = (step - floor(step)) * 65536.0; /* whole textures do not matter */
+        const uint32_t high = exact_uint((float)floor(part));
+        textures = high << 16 | exact_uint((float)floor((part - high) * 65536.0));
+    }
+    return (uint4){first_record(scene, index) | (ribbon->smooth - 1) << 26,
+                   system->capacity | flags, kiln_ribbon_run(system), (uint32_t)textures};
+}
+
 /* Returns `values` of a look but for its first word: where the records of its parents are. */
 static uint4 parents_of(const struct kiln_scene *scene, uint32_t index)
 {
     const struct kiln_parent *parent = &scene->systems[index].emit.parent;
     uint4 values = {0};
-    if (!kiln_family_inherits(&scene->systems[index]))
+    const struct kiln_system *system = &scene->systems[index];
+    const bool joins = system->look.shape == KILN_SHAPE_RIBBON && kiln_ribbon_joins_parent(system);
+    if (!kiln_family_inherits(system) && !joins)
         return values;
-    for (uint32_t i = 0; i < parent->system; i++)
-        values.y += scene->systems[i].capacity;
+    values.y = first_record(scene, parent->system);
     values.z = scene->systems[parent->system].capacity;
     values.w = parent->slots | parent->system << 26;
     return values;
@@ -261,6 +306,7 @@ void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *at
     for (uint32_t i = 0; i < scene->system_count; i++) {
         looks[i] = make_look(scene, i, &atlas->systems[i]);
         looks[i].values = parents_of(scene, i);
+        looks[i].ribbon = ribbon_of(scene, i);
         looks[i].values.x = programs[i].count > 0 ? programs[i].row : 0;
     }
 }

@@ -15,7 +15,7 @@
 #include "shared/source.h"
 
 static_assert(offsetof(struct kiln_draw_look, flags) == 48, "std140");
-static_assert(sizeof(struct kiln_draw_look) == 112 + 16 * KILN_MAX_TEXTURES, "std140");
+static_assert(sizeof(struct kiln_draw_look) == 128 + 16 * KILN_MAX_TEXTURES, "std140");
 static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of every GL");
 
 struct kiln_moment_gl {

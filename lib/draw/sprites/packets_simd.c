@@ -8,6 +8,7 @@
 #include "base/transpose.h"
 #include "draw/sprites/packet_sort.h"
 #include "draw/sprites/packets.h"
+#include "draw/sprites/ribbon_pixels.h"
 #include "shared/fragment_layout.h"
 
 /* The upper word of the key of depth 0, and that of a fragment that does not exist. */
@@ -58,6 +59,13 @@ SIMD vi depth_word(vf depth, vi drawn)
 SIMD vi put_depths(struct packet *packet, const struct kiln_sprite *s,
                    const struct kiln_sprite_extra *extra, float x, float y, vi drawn)
 {
+    if (s->shade >= KILN_SHADES) {
+        const struct ribbon_pixels ribbon = ribbon_at(s, &extra->ribbon, vf_count() + x, vf_all(y));
+        packet->depths[0] = depth_word(ribbon.depth, drawn);
+        packet->depths[1] = depth_word(ribbon.depth, vi_all(0));
+        packet->thick = false;
+        return vi_all(0);
+    }
     const vf dx = vf_count() + x - s->x;
     const float dy = y - s->y;
     vf u = s->u + s->u_x * dx + s->u_y * dy, v = s->v + s->v_x * dx + s->v_y * dy;

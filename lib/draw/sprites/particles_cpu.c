@@ -11,6 +11,7 @@
 #include "draw/sprites/bins.h"
 #include "draw/sprites/fragments.h"
 #include "draw/sprites/tile_target.h"
+#include "scene/ribbon.h"
 #include "scene/work.h"
 
 enum {
@@ -27,8 +28,9 @@ struct kiln_raster_cpu {
     struct kiln_bins bins;
     struct kiln_sprites sprites;
     uint32_t sprite_room;
-    struct kiln_tile *tiles;           /* one for each thread */
-    struct kiln_fragments **fragments; /* one for each thread; NULL unless post.compose is oit */
+    struct kiln_buffer repeated, parts; /* the lists of a pass with ribbons: struct entry_list */
+    struct kiln_tile *tiles;            /* one for each thread */
+    struct kiln_fragments **fragments;  /* one for each thread; NULL unless post.compose is oit */
     kiln_sprites_make *make;
     kiln_tile_draw *draw;
 };
@@ -84,6 +86,8 @@ struct kiln_raster_cpu *kiln_raster_cpu_create(const struct kiln_scene *scene,
     }
     tiles->scene = scene;
     tiles->threads = threads;
+    kiln_buffer_init(&tiles->repeated, NULL, 0, "parts of ribbons");
+    kiln_buffer_init(&tiles->parts, NULL, 0, "parts of ribbons");
     enum kiln_simd simd;
     if (!kiln_simd_choose(&simd, error)) {
         kiln_raster_cpu_destroy(&tiles);
@@ -122,6 +126,9 @@ void kiln_raster_cpu_footprint(const struct kiln_scene *scene, uint64_t layers,
     if (by_fragment && kiln_simd_choose(&simd, NULL))
         kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, footprint->threads,
                            kiln_fragments_bytes(simd));
+    if (kiln_ribbon_most_parts(scene) > 0) /* struct entry_list */
+        kiln_footprint_add(footprint, KILN_FOOTPRINT_PARTICLES, slots,
+                           sizeof(uint32_t) + sizeof(uint8_t));
     kiln_bins_footprint(scene->width, scene->height, listed, footprint);
     kiln_cells_footprint(layers, mixed, footprint);
 }
@@ -137,6 +144,8 @@ void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles)
         kiln_fragments_destroy(&t->fragments[i]);
     free((void *)t->fragments);
     free_sprites(&t->sprites);
+    kiln_buffer_finish(&t->repeated);
+    kiln_buffer_finish(&t->parts);
     free(t->tiles);
     free(t);
     *tiles = NULL;
@@ -144,10 +153,23 @@ void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles)
 
 /* ---- sprites --------------------------------------------------------------------------------- */
 
+/* Holds draw entries, and of entries of ribbons which part of its segment each is. */
+struct entry_list {
+    const uint32_t *entries;
+    const uint8_t *parts; /* NULL: there are no ribbons */
+    uint32_t count;
+};
+
+static struct entry_list entries_from(struct entry_list list, uint32_t first)
+{
+    return (struct entry_list){list.entries + first, list.parts ? list.parts + first : NULL,
+                               list.count - first};
+}
+
 struct sprite_job {
     kiln_sprites_make *make;
     const struct kiln_sprite_pass *pass;
-    const uint32_t *entries;
+    struct entry_list list;
     struct kiln_sprites sprites;
     const struct kiln_bins *bins;
 };
@@ -156,7 +178,9 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
 {
     (void)worker;
     const struct sprite_job *job = context;
-    job->make(job->pass, job->entries + begin, end - begin, kiln_sprites_from(job->sprites, begin));
+    const uint8_t *parts = job->list.parts;
+    job->make(job->pass, job->list.entries + begin, parts ? parts + begin : NULL, end - begin,
+              kiln_sprites_from(job->sprites, begin));
     kiln_bins_note(job->bins, job->sprites.sprites, begin, end);
 }
 
@@ -245,8 +269,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
 struct sorted_pass {
     struct kiln_raster_cpu *tiles;
     const struct kiln_sprite_pass *pass;
-    const uint32_t *entries;
-    uint32_t count;
+    struct entry_list list;
     size_t *totals;               /* number of sprites of each tile */
     bool *is_selected;            /* by sprite of a piece: it touches the present tiles */
     struct kiln_sprites selected; /* the sprites of all pieces that touch the present tiles */
@@ -257,10 +280,11 @@ struct sorted_pass {
  * memory. Returns the number of sprites, or 0 with an error. */
 static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct kiln_error *error)
 {
-    const uint32_t left = s->count - first;
+    const uint32_t left = s->list.count - first;
     uint32_t count = left < SORTED_AT_A_TIME ? left : SORTED_AT_A_TIME;
     struct kiln_bins *bins = &s->tiles->bins;
-    struct sprite_job job = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites, bins};
+    struct sprite_job job = {s->tiles->make, s->pass, entries_from(s->list, first),
+                             s->tiles->sprites, bins};
     if (!kiln_bins_begin(bins, count, error))
         return 0;
     kiln_threads_for(s->tiles->threads, count, GRAIN, make_sprites, &job);
@@ -272,7 +296,7 @@ static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct k
 static bool count_tiles(const struct sorted_pass *s, size_t tile_count, struct kiln_error *error)
 {
     const uint32_t *first = s->tiles->bins.first;
-    for (uint32_t done = 0, count; done < s->count; done += count) {
+    for (uint32_t done = 0, count; done < s->list.count; done += count) {
         count = make_piece(s, done, error);
         if (count == 0)
             return false;
@@ -306,7 +330,7 @@ static bool select_sprites(struct sorted_pass *s, size_t first_tile, size_t end_
 {
     const struct kiln_bins *bins = &s->tiles->bins;
     s->selected_count = 0;
-    for (uint32_t done = 0, count; done < s->count; done += count) {
+    for (uint32_t done = 0, count; done < s->list.count; done += count) {
         count = make_piece(s, done, error);
         if (count == 0)
             return false;
@@ -369,10 +393,10 @@ static bool draw_sorted(struct sorted_pass *s, struct tile_job *job, struct kiln
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
 static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_pass *pass,
-                       const uint32_t *entries, uint32_t count, struct tile_job *tile_job,
-                       struct kiln_error *error)
+                       struct entry_list list, struct tile_job *tile_job, struct kiln_error *error)
 {
-    struct sprite_job job = {tiles->make, pass, entries, tiles->sprites, &tiles->bins};
+    const uint32_t count = list.count;
+    struct sprite_job job = {tiles->make, pass, list, tiles->sprites, &tiles->bins};
     if (!kiln_bins_begin(&tiles->bins, count, error))
         return false;
     kiln_threads_for(tiles->threads, count, GRAIN, make_sprites, &job);
@@ -385,10 +409,8 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
         if (!kiln_bins_fill_some(&tiles->bins, begin, &end, tiles->threads, error))
             return false;
         if (tile_job->target.by_fragment && end < count) /* pixels need all their sprites at once */
-            return draw_sorted(
-                &(struct sorted_pass){
-                    .tiles = tiles, .pass = pass, .entries = entries, .count = count},
-                tile_job, error);
+            return draw_sorted(&(struct sorted_pass){.tiles = tiles, .pass = pass, .list = list},
+                               tile_job, error);
         if (!kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error))
             return false;
         most = end - begin;
@@ -462,6 +484,13 @@ bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint64_t sys
     return true;
 }
 
+/* Returns how many sprites an entry has. */
+static uint32_t parts_of(const struct kiln_draw_look *looks, uint32_t entry)
+{
+    const struct kiln_draw_look *look = &looks[KILN_ENTRY_SYSTEM(entry)];
+    return look->form.x == LOOK_RIBBON ? LOOK_RIBBON_PARTS(look->ribbon.x) : 1;
+}
+
 /* Makes the pixels that a pass reads and writes available on the host. */
 static bool open_images(const struct kiln_particles_draw *draw, struct kiln_tile_target *d,
                         struct kiln_error *error)
@@ -483,6 +512,38 @@ static bool open_images(const struct kiln_particles_draw *draw, struct kiln_tile
            (d->added || !draw->added);
 }
 
+/* Lists the entries of a pass. Each entry of a ribbon is repeated for each part of its segment. */
+static bool open_entries(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,
+                         struct entry_list *list, struct kiln_error *error)
+{
+    const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, error);
+    const struct kiln_draw_look *looks = draw->moment->looks;
+    *list = (struct entry_list){entries, NULL, draw->count};
+    if (!entries || kiln_ribbon_most_parts(tiles->scene) == 0)
+        return entries;
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < draw->count; i++)
+        total += parts_of(looks, entries[i]);
+    if (total > UINT32_MAX)
+        return out_of_memory(error);
+    kiln_buffer_reserve(&tiles->repeated, total * sizeof *entries);
+    kiln_buffer_reserve(&tiles->parts, total);
+    uint32_t *repeated = kiln_buffer_host(&tiles->repeated, KILN_OVERWRITE, error);
+    uint8_t *parts = repeated ? kiln_buffer_host(&tiles->parts, KILN_OVERWRITE, error) : NULL;
+    if (!parts)
+        return false;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < draw->count; i++) {
+        const uint32_t of_entry = parts_of(looks, entries[i]);
+        for (uint32_t part = 0; part < of_entry; part++) {
+            repeated[count] = entries[i];
+            parts[count++] = (uint8_t)part;
+        }
+    }
+    *list = (struct entry_list){repeated, parts, count};
+    return true;
+}
+
 bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,
                          struct kiln_error *error)
 {
@@ -494,9 +555,9 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
                                       .sum = draw->sum_alpha,
                                       .by_fragment = draw->by_fragment}};
     struct kiln_tile_target *target = &job.target;
-    const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, error);
-    if (!entries || !open_images(draw, target, error) ||
-        !make_room(tiles, draw->count < most ? draw->count : most, error))
+    struct entry_list list;
+    if (!open_entries(tiles, draw, &list, error) || !open_images(draw, target, error) ||
+        !make_room(tiles, list.count < most ? list.count : most, error))
         return false;
     target->glow = choose_glow(draw, target->weights);
     struct kiln_sprite_pass pass = {
@@ -513,17 +574,17 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
         .fire_covers = draw->sum_alpha || draw->fire_covers,
     };
     kiln_bins_measure(&tiles->bins, target->depth, target->width, target->height, tiles->threads);
-    if (draw->by_fragment && draw->count > most) {
-        struct sorted_pass sorted = {
-            .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};
+    if (draw->by_fragment && list.count > most) {
+        struct sorted_pass sorted = {.tiles = tiles, .pass = &pass, .list = list};
         return draw_sorted(&sorted, &job, error);
     }
     uint32_t done = 0;
     do { /* at least once, to clear the picture if there are no particles */
-        uint32_t count = draw->count - done < most ? draw->count - done : most;
-        if (!draw_piece(tiles, &pass, entries + done, count, &job, error))
+        struct entry_list piece = entries_from(list, done);
+        piece.count = piece.count < most ? piece.count : most;
+        if (!draw_piece(tiles, &pass, piece, &job, error))
             return false;
-        done += count;
-    } while (done < draw->count);
+        done += piece.count;
+    } while (done < list.count);
     return true;
 }

@@ -15,6 +15,7 @@
 #include "draw/sprites/gas_before.h"
 #include "draw/sprites/occlusion.h"
 #include "gpu/program.h"
+#include "scene/ribbon.h"
 
 struct kiln_geometry {
     struct kiln_device *device;
@@ -53,6 +54,8 @@ void kiln_geometry_defines(const struct kiln_scene *scene, struct kiln_text *def
                   kiln_scene_has_smoke(scene) ? "" : "#define NO_SMOKE 1\n",
                   kiln_scene_has_lamps(scene) ? "" : "#define NO_LAMPS 1\n",
                   kiln_gas_before_defines(scene));
+    if (kiln_ribbon_most_parts(scene) > 0)
+        kiln_text_add(defines, "#define RIBBONS %u\n", kiln_ribbon_most_parts(scene));
     kiln_moment_gl_defines(scene, defines);
 }
 
@@ -124,6 +127,12 @@ void kiln_geometry_destroy(struct kiln_geometry **stage)
     *stage = NULL;
 }
 
+uint32_t kiln_geometry_items(const struct kiln_geometry *stage)
+{
+    const uint32_t parts = kiln_ribbon_most_parts(stage->scene);
+    return parts > 0 ? parts : 1;
+}
+
 static void bind_texture(GLuint unit, GLenum target, GLuint texture)
 {
     glActiveTexture(GL_TEXTURE0 + unit);
@@ -164,7 +173,7 @@ static void submit(void *context)
 static bool draw_visible(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                          struct kiln_error *error)
 {
-    struct submission submission = {stage, (GLsizei)draw->count};
+    struct submission submission = {stage, (GLsizei)(draw->count * kiln_geometry_items(stage))};
     if (draw->by_fragment)
         return kiln_fragments_gl_run(stage->fragments, draw, submit, &submission, error);
     glUseProgram(stage->program);

@@ -21,6 +21,9 @@ void kiln_geometry_destroy(struct kiln_geometry **stage);
  * (shaders/draw/sprites/particle.glsl). */
 void kiln_geometry_defines(const struct kiln_scene *scene, struct kiln_text *defines);
 
+/* Returns how many sprites each draw entry of the scene has: RIBBONS of ribbon.glsl, or 1. */
+uint32_t kiln_geometry_items(const struct kiln_geometry *stage);
+
 /* Binds the data of kiln_moment_bind, and the lighting, the atlas and its motion, and the scene's
  * depth, which shaders/draw/sprites/shade.glsl reads. */
 bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,

@@ -200,6 +200,7 @@ struct run {
     uint32_t width, height; /* px */
     uint32_t tile_columns, tile_rows;
     uint32_t columns, rows, bins; /* bins along the picture's edges, and all bins */
+    uint32_t items;               /* sprites of all particles */
     uint32_t first, count, chunk; /* particles of the chunk, from the nearest; most of a chunk */
     uint32_t entries;             /* entries of all lists, a multiple of TILED_PIECE */
     uint32_t longest;             /* sprites in the longest list */
@@ -379,7 +380,7 @@ static void draw_spans(const struct kiln_tiled *tiled, const struct run *run, bo
 
 static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct kiln_error *error)
 {
-    uint32_t all = run->draw->count;
+    uint32_t all = run->items;
     bool first = run->first == 0, last = run->first + run->count == all;
     bool whole = first && last && divide_up(run->longest, 32) <= tiled->max_words;
     size_t pixels = whole ? 0 : (size_t)run->width * run->height;
@@ -404,7 +405,7 @@ static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct k
 static bool draw_chunk(struct kiln_tiled *tiled, struct run *run, struct kiln_error *error)
 {
     for (;;) {
-        uint32_t left = run->draw->count - run->first;
+        uint32_t left = run->items - run->first;
         run->count = left < run->chunk ? left : run->chunk;
         if ((run->count > 0 && !make_sprites(tiled, run, error)) || !place_lists(tiled, run, error))
             return false;
@@ -418,7 +419,7 @@ static bool draw_chunk(struct kiln_tiled *tiled, struct run *run, struct kiln_er
 bool kiln_tiled_run(struct kiln_tiled *tiled, const struct kiln_particles_draw *draw,
                     struct kiln_error *error)
 {
-    struct run run = {.draw = draw};
+    struct run run = {.draw = draw, .items = draw->count * kiln_geometry_items(tiled->geometry)};
     plan(tiled, &run);
     if (!kiln_geometry_bind_draw(tiled->geometry, draw, error) || !bind_images(&run, error) ||
         !measure_depth(tiled, &run, error))
@@ -427,7 +428,7 @@ bool kiln_tiled_run(struct kiln_tiled *tiled, const struct kiln_particles_draw *
         if (!draw_chunk(tiled, &run, error))
             return false;
         run.first += run.count;
-    } while (run.first < draw->count);
+    } while (run.first < run.items);
     /* Later stages draw over the images, sample them and read them back. */
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);

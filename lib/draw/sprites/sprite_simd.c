@@ -2,9 +2,10 @@
  * particle looks like is computed by shared/billboard.h and its neighbours, which GL has, too; the
  * results are the same bits on every machine. */
 #include "draw/sprites/sprite_cells.h"
-#include "draw/sprites/sprite_haze.h"
-#include "draw/sprites/sprite_light.h"
+#include "draw/sprites/sprite_color.h"
 #include "draw/sprites/sprite_place.h"
+#include "draw/sprites/sprite_read.h"
+#include "draw/sprites/sprite_ribbon.h"
 
 enum {
     PIECE_SIZE = 512,       /* particles of a piece, which are sorted by system */
@@ -114,158 +115,7 @@ SIMD vf lay(struct sprite_lanes *p)
     return vf_select(p->lies, billboard_slant(p->plane, p->center), vf_all(1.0f));
 }
 
-/* ---- colour ---------------------------------------------------------------------------------- */
-
-/* Returns a mask of the particles that reflect light. */
-SIMD vi reflecting(const struct sprite_lanes *p)
-{
-    return (p->cover.c[0] > 0.0f) | (p->cover.c[1] > 0.0f) | (p->cover.c[2] > 0.0f);
-}
-
-static void choose_shade(struct sprite_lanes *p)
-{
-    p->shade = vi_all(KILN_SHADE_PLAIN);
-    if (p->look->form.x != 0)
-        return;
-    vi lit = (p->cover.c[3] > 0.0f) & reflecting(p);
-    p->shade = vi_select((vi)p->texture.c[2] == (int32_t)KILN_CELL_COLOR, vi_all(KILN_SHADE_COLOR),
-                         vi_select(lit, vi_all(KILN_SHADE_LIT), vi_all(KILN_SHADE_GLOW)));
-}
-
-/* Returns whether the sprites cover what is behind them, or their alpha is summed. */
-SIMD bool cover(const struct sprite_lanes *p)
-{
-    return p->look->flags.x == 0 || p->pass->fire_covers;
-}
-
-/* Puts haze before the light of a channel: dims what the sprites emit and reflect, and adds the
- * haze itself, which is as opaque as each place on them. */
-SIMD void veil(const struct sprite_lanes *p, const struct sprite_haze *haze, vf added, vf *base,
-               vf *slope)
-{
-    const vi colored = p->shade == KILN_SHADE_COLOR;
-    *slope = vf_select(colored, added, *slope * haze->clear);
-    *base = *base * haze->clear + vf_where(~colored, added);
-}
-
-static void color_sprites(struct sprite_lanes *p)
-{
-    const vf zero = vf_all(0.0f);
-    const bool hazy = has_haze(p->pass->backdrop);
-    struct sprite_haze haze;
-    if (hazy)
-        haze = find_haze(p, cover(p));
-    vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW;
-    vi emits = vi_all(0), heated = vi_all(0);
-    struct light_sum light;
-    memset(&light, 0, sizeof light);
-    if (any(p->visible & reflecting(p)))
-        light_sprites(p, &light);
-    bool some_lit = any(lit & p->visible);
-    const struct light_channel *channels[3] = {&light.red, &light.green, &light.blue};
-    for (size_t c = 0; c < 3; c++) {
-        const struct light_channel *channel = channels[c];
-        vf albedo = p->cover.c[c], hot = p->hot.c[c], cool = p->cool.c[c];
-        /* The light on a sprite without normals in its cell does not change along the axes. */
-        vf flat = vf_max(channel->all + channel->along.z, zero) * albedo;
-        vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
-        vf slope = vf_where(lit | glows, hot - cool);
-        if (hazy) {
-            const vf added[3] = {haze.added.x, haze.added.y, haze.added.z};
-            veil(p, &haze, added[c], &base, &slope);
-            albedo *= haze.clear;
-        }
-        heated |= slope != 0.0f;
-        emits |= (base != 0.0f) | heated;
-        p->words[WORD_OF(base) + c] = base;
-        p->words[WORD_OF(slope) + c] = slope;
-        if (!some_lit)
-            continue;
-        p->extra[EXTRA_WORD_OF(light) + c] = vf_where(lit, channel->all * albedo);
-        p->extra[EXTRA_WORD_OF(light) + 3 + c] = vf_where(lit, channel->along.x * albedo);
-        p->extra[EXTRA_WORD_OF(light) + 6 + c] = vf_where(lit, channel->along.y * albedo);
-        p->extra[EXTRA_WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
-    }
-    p->flags |= emits & KILN_SPRITE_EMITS;
-    if (hazy && cover(p))
-        p->flags |= (p->shade == KILN_SHADE_COLOR) & KILN_SPRITE_VEILED;
-    p->shade = vi_select(glows & ~heated, vi_all(KILN_SHADE_ALPHA), p->shade);
-    const struct columns bloom = look_row(p, KILN_LOOK_BLOOM);
-    for (size_t c = 0; c < 3; c++)
-        p->words[WORD_OF(bloom) + c] = bloom.c[c];
-    if (p->look->form.x == 0)
-        p->words[WORD_OF(bulge)] = p->half_size * bloom.c[3];
-}
-
 /* ---- from particle to sprite ----------------------------------------------------------------- */
-
-/* Finds the clocks of the parents of particles whose look inherits values. */
-static void read_parents(struct sprite_lanes *p)
-{
-    const struct kiln_sprite_pass *pass = p->pass;
-    const uint4 values = p->look->values;
-    const struct kiln_derived_params derived = pass->looks[LOOK_PARENT_SYSTEM(values.w)].derived;
-    for (int i = 0; i < LANES; i++) {
-        const struct kiln_particle child = pass->records[p->slots[i]];
-        const struct kiln_particle parent =
-            pass->records[LOOK_PARENT_RECORD(values, child.position_serial.w)];
-        const struct value_clocks clocks = particle_clocks_of_child(
-            pass->scene->keys, value_clocks_at(0, 0, 0), derived, parent, child);
-        p->clocks.parent_life[i] = clocks.parent_life;
-        p->clocks.parent_age_s[i] = clocks.parent_age_s;
-        p->clocks.parent_stream[i] = clocks.parent_stream;
-    }
-}
-
-static void read_clocks(struct sprite_lanes *p)
-{
-    p->clocks = (struct clock_lanes){
-        .life = p->progress,
-        .age_s = p->age_s,
-        .height = p->record.position.y,
-        .distance = vf_sqrt(vf3_dot(p->center, p->center)),
-        .velocity = p->record.velocity,
-        .stream = p->stream,
-        .time_s = p->pass->view->clock.x,
-    };
-    if (LOOK_PARENT_SLOTS(p->look->values.w) != 0)
-        read_parents(p);
-}
-
-static void read_particles(struct sprite_lanes *p)
-{
-    const struct kiln_sprite_pass *pass = p->pass;
-    const struct kiln_view *view = pass->view;
-    p->record = read_records(pass->records, p->slots);
-    p->stream = vu_mix(p->record.serial + p->look->derived.random_key);
-    p->age_s = vf_age(p->record.birth, view->clock_step.x, view->within.x, view->clock.y);
-    p->progress = vf_progress(
-        p->age_s, vf_life(pass->scene->keys, &p->look->derived, p->stream, p->record.birth));
-    vf sample = p->progress * (float)(KILN_LOOK_SAMPLES - 1);
-    vi number = vi_of(vf_min(sample, vf_all((float)(KILN_LOOK_SAMPLES - 2))));
-    p->samples = lane_offsets_of(number * 4);
-    vf_spread_fours(sample - vf_of(number), p->sample_part);
-    const float4 *rows = view->world_to_view;
-    p->center =
-        (struct vf3){vf3_map(rows[0], p->record.position), vf3_map(rows[1], p->record.position),
-                     vf3_map(rows[2], p->record.position)};
-    p->depth = -p->center.z;
-    if (p->program->count > 0)
-        read_clocks(p);
-}
-
-/* Computes the opacity of particles from their look at their age and from the near fade. */
-static void fade_particles(struct sprite_lanes *p)
-{
-    const float near = p->pass->view->eye.w;
-    p->shape = look_row(p, KILN_LOOK_SHAPE);
-    p->hot = look_row(p, KILN_LOOK_HOT);
-    vf near_fade = vf_clamp01((p->depth - near) / vf_max(p->hot.c[3], vf_all(1e-6f)));
-    vf opacity = p->shape.c[2] * near_fade;
-    p->words[WORD_OF(opacity)] = opacity;
-    p->words[WORD_OF(soft)] = p->shape.c[3];
-    p->visible = (p->depth > near) & (opacity > 0.0f);
-}
 
 static void place_sprites(struct sprite_lanes *p)
 {
@@ -315,10 +165,24 @@ static void finish_sprites(struct sprite_lanes *p)
         p->extra[EXTRA_WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
 }
 
+/* Makes the sprites of a vector of particles that are not drawn as ribbons. */
+static void make_billboards(struct sprite_lanes *p)
+{
+    read_particles(p);
+    fade_particles(p);
+    if (any(p->visible))
+        place_sprites(p);
+    if (any(p->visible)) {
+        color_sprites(p);
+        finish_sprites(p);
+    }
+}
+
 /* Holds the entries of a piece, and in `order` their numbers sorted by system; entries of one
  * system keep their order. */
 struct piece {
     const uint32_t *entries;
+    const uint8_t *parts; /* or NULL */
     struct kiln_sprites to;
     uint32_t count;
     uint16_t order[PIECE_SIZE];
@@ -366,20 +230,19 @@ SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, 
 static void make_vector(struct sprite_lanes *p, const struct piece *piece,
                         const uint16_t lanes[LANES])
 {
-    for (int i = 0; i < LANES; i++)
+    vi parts = vi_all(0);
+    for (int i = 0; i < LANES; i++) {
         p->slots[i] = (int32_t)KILN_ENTRY_SLOT(piece->entries[lanes[i]]);
+        parts[i] = piece->parts ? piece->parts[lanes[i]] : 0;
+    }
     memset(p->words, 0, sizeof p->words);
     memset(p->extra, 0, sizeof p->extra);
     p->flags = vi_all(0);
     p->has_extras = false;
-    read_particles(p);
-    fade_particles(p);
-    if (any(p->visible))
-        place_sprites(p);
-    if (any(p->visible)) {
-        color_sprites(p);
-        finish_sprites(p);
-    }
+    if (p->look->form.x == LOOK_RIBBON)
+        make_ribbons(p, parts);
+    else
+        make_billboards(p);
     float *sprites = (float *)(void *)piece->to.sprites;
     for (int line = 0; line < SPRITE_WORDS; line += LINE_FLOATS)
         vf_store_lines(p->words + line, sprites + line, SPRITE_WORDS, lanes);
@@ -415,10 +278,11 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
 }
 
 void KILN_SIMD_NAME(kiln_sprites_make)(const struct kiln_sprite_pass *pass, const uint32_t *entries,
-                                       size_t count, struct kiln_sprites to)
+                                       const uint8_t *parts, size_t count, struct kiln_sprites to)
 {
     for (size_t i = 0; i < count; i += PIECE_SIZE) {
         struct piece piece = {.entries = entries + i,
+                              .parts = parts ? parts + i : NULL,
                               .to = kiln_sprites_from(to, i),
                               .count = count - i < PIECE_SIZE ? (uint32_t)(count - i) : PIECE_SIZE};
         make_piece(pass, &piece);

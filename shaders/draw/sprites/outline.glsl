@@ -158,9 +158,51 @@ outline find_outline()
 
 #endif
 
+#ifdef RIBBONS
+
+/* Returns the place in the picture where a joint crosses the middle line; both are lines, x, y and at
+ * of struct ribbon_line. */
+vec2 meeting_of(vec3 middle, vec3 joint)
+{
+    vec2 foot = middle.xy * -middle.z, along = vec2(middle.y, -middle.x);
+    float slope = dot(joint.xy, along);
+    return foot - along * ((dot(joint.xy, foot) + joint.z) / (abs(slope) > 1e-6 ? slope : 1e-6));
+}
+
+/* Finds the outline of a part of a ribbon: a rectangle along its middle line that reaches beyond its
+ * joints as far as they may lie aslant. */
+outline find_ribbon_outline()
+{
+    vec3 middle = particle.light_x.xyz;
+    vec2 from = meeting_of(middle, right.xyz), to = meeting_of(middle, up.xyz);
+    vec2 along = vec2(middle.y, -middle.x), across = middle.xy;
+    float half_width = max(right.w, up.w) + 1.5, reach = 2.0 * half_width;
+    float begins = dot(from, along) - reach, ends = dot(to, along) + reach;
+    outline s;
+    s.rows.u = right;
+    s.rows.v = up;
+    s.rows.q = vec4(1.0, 0.0, 0.0, 0.0);
+    s.rows.edge = vec2(-1e6); /* particles_tiled_mark.comp takes any tile */
+    for (int i = 0; i < 4; i++) {
+        vec2 corner = outline_corner(i);
+        float at = corner.x < 0.0 ? begins : ends;
+        s.corners[i] = along * at + across * (corner.y * half_width - middle.z);
+    }
+    s.nearest_depth = 1.0 / max(particle.light_0.x, particle.light_0.y);
+    s.in_front = true;
+    s.has_area = true;
+    return s;
+}
+
+#endif
+
 /* Finds the outline of a particle, whichever shape it has. */
 outline find_particle_outline()
 {
+#ifdef RIBBONS
+    if (particle.color.r < 0.0)
+        return find_ribbon_outline();
+#endif
 #if SHAPES
     if (center.w > 0.0)
         return find_stroke_outline();

@@ -20,7 +20,8 @@
  * The host defines SHAPES as 1 for a scene with points, lines or billboards that are not parallel
  * to the picture, else as 0. It defines SUN_SHADE and LAMP_SHADE only for a scene whose backdrop
  * shades particles from the sun, or from lamps (kiln_geometry_defines in
- * lib/draw/sprites/particles_geometry.c). Other scenes get a faster shader without that code. It
+ * lib/draw/sprites/particles_geometry.c), and RIBBONS for one with ribbons (ribbon.glsl). Other scenes
+ * get a faster shader without that code. It
  * defines HAZE for a scene that has haze; then the shader declares the uniform additive_alpha of
  * shade.glsl. It defines NO_SMOKE for a scene without smoke that throws shadows, and NO_LAMPS for one without
  * lamps and light of fire.
@@ -266,3 +267,36 @@ void make_billboard(uint entry)
     veil_particle(position, form.x == 0u && texture_cells.z == KILN_CELL_COLOR);
 #endif
 }
+
+#ifdef RIBBONS
+
+#include "draw/sprites/ribbon.glsl"
+
+/* Makes what item i of a drawing shows: a draw entry, or a part of one that is a ribbon. Each entry
+ * has RIBBONS items; those that it does not need are not seen. */
+void make_item(uint i)
+{
+    uint entry = entries[i / uint(RIBBONS)], part = i % uint(RIBBONS);
+    uint system = KILN_ENTRY_SYSTEM(entry);
+    if (looks[system].form.x == LOOK_RIBBON) {
+#ifdef NEAREST_FIRST
+        part = LOOK_RIBBON_PARTS(looks[system].ribbon.x) - 1u - part; /* or beyond all of them */
+#endif
+        make_ribbon(entry, part);
+    } else if (part == 0u) {
+        make_billboard(entry);
+    } else {
+        center = vec4(0.0);
+        particle.color = vec4(0.0);
+    }
+}
+
+#else
+
+/* Makes the billboard, point or line of draw entry i. */
+void make_item(uint i)
+{
+    make_billboard(entries[i]);
+}
+
+#endif

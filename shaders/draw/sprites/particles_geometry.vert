@@ -12,6 +12,8 @@
 // variant: SHAPES=1 LOOK_VALUES=1 LOOK_SOURCES=1
 // variant: SHAPES=1 LOOK_VALUES=1 LOOK_PARENTS=1
 // variant: SHAPES=1 HAZE=1
+// variant: SHAPES=1 RIBBONS=4
+// variant: SHAPES=1 HAZE=1 LOOK_VALUES=1 RIBBONS=4
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -31,7 +33,7 @@ uniform float additive_alpha;
 
 void main()
 {
-    make_billboard(entries[gl_VertexID]);
+    make_item(uint(gl_VertexID));
     /* The light does not use this component, so it holds the place in the drawing order, by which
      * particles_list.frag orders fragments of equal depth. A float holds it exactly, since there
      * are at most 2^24 particles. */

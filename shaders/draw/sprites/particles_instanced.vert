@@ -8,6 +8,8 @@
 // variant: SHAPES=1 LOOK_VALUES=1 LOOK_SOURCES=1
 // variant: SHAPES=1 LOOK_VALUES=1 LOOK_PARENTS=1
 // variant: SHAPES=1 HAZE=1
+// variant: SHAPES=1 RIBBONS=4
+// variant: SHAPES=1 HAZE=1 LOOK_VALUES=1 RIBBONS=4
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -27,7 +29,7 @@ uniform float additive_alpha;
 
 void main()
 {
-    make_billboard(entries[gl_InstanceID]);
+    make_item(uint(gl_InstanceID));
     particle.light_y.a = float(gl_InstanceID);
     outline s = find_particle_outline();
     if (is_seen(center, particle) && s.has_area)

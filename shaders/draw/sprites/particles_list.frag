@@ -36,9 +36,10 @@ void put(uint number, float depth, uint front, vec4 color, vec3 bloom)
 void main()
 {
     vec2 at;
-    float depth, bulge = quad.light_x.a;
+    float depth;
     if (!is_covered(at, depth))
         return;
+    float bulge = quad.light_x.a;
 #if SHAPES
     if (is_plain(quad))
         bulge = 0.0;

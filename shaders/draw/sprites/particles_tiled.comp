@@ -66,6 +66,9 @@ layout(location = TILED_AT_SPAN) uniform uvec2 span;
 #include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"
 #include "draw/sprites/gas_before.glsl"
+#ifdef RIBBONS
+#include "draw/sprites/ribbon_pixel.glsl"
+#endif
 
 const uint WORDS = uint(TILED_ROUND_WORDS);
 shared uint touching[WORDS]; /* the words of the tile's mask in this round */
@@ -159,7 +162,7 @@ void draw(uint i, vec2 first)
 {
     int row = int(i) * TILED_SPRITE_ROWS;
     vec4 u = texelFetch(sprites, row + SPRITE_U), v = texelFetch(sprites, row + SPRITE_V);
-    billboard quad = fetch_quad(row + SPRITE_QUAD);
+    billboard whole = fetch_quad(row + SPRITE_QUAD), quad = whole;
     place rows = place(u, v, vec4(0.0), -rim_reach(quad));
 #if SHAPES
     rows.q = texelFetch(sprites, row + SPRITE_Q);
@@ -167,12 +170,21 @@ void draw(uint i, vec2 first)
 #endif
     for (uint k = 0u; k < PIXELS; k++) {
         vec2 at;
-        float depth = quad.depth.x;
-        if (place_covers(rows, first + vec2(0.0, float(k * ROWS)), depth, at)) {
+        vec2 pixel = first + vec2(0.0, float(k * ROWS));
+        float depth = whole.depth.x;
+        bool covers;
+#ifdef RIBBONS
+        quad = whole;
+        if (is_ribbon(whole))
+            covers = ribbon_covers(u, v, pixel, quad, depth, at);
+        else
+#endif
+            covers = place_covers(rows, pixel, depth, at);
+        if (covers) {
             vec4 color, glow;
             shade(quad, at, depth, pixels[k].scene, color, glow);
 #ifdef GAS
-            blend_with_gas(first + vec2(0.0, float(k * ROWS)), depth, color, glow);
+            blend_with_gas(pixel, depth, color, glow);
 #endif
             float passed = pixels[k].glow.a;
             pixels[k].color += color * passed;

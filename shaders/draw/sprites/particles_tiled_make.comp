@@ -9,6 +9,8 @@
 // variant: SHAPES=1 LOOK_VALUES=1 LOOK_SOURCES=1 TILED_EDGE=16
 // variant: SHAPES=1 LOOK_VALUES=1 LOOK_PARENTS=1 TILED_EDGE=16
 // variant: SHAPES=1 HAZE=1 TILED_EDGE=16
+// variant: SHAPES=1 RIBBONS=4 TILED_EDGE=16
+// variant: SHAPES=1 HAZE=1 LOOK_VALUES=1 RIBBONS=4 TILED_EDGE=16
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -42,6 +44,7 @@ layout(location = TILED_AT_MASK_WORDS) uniform uint mask_words;
 vec4 center, right, up;
 billboard particle;
 
+#define NEAREST_FIRST
 #include "draw/sprites/particle.glsl"
 
 #include "draw/sprites/outline.glsl"
@@ -78,6 +81,11 @@ float most_added()
 #ifdef HAZE
     if (uint(particle.depth.y) == KILN_CELL_COLOR)
         rgb += particle.cool.rgb;
+#endif
+#ifdef RIBBONS
+    if (particle.color.r < 0.0) /* where it begins and where it ends */
+        rgb = max(max(particle.hot.rgb, particle.cool.rgb), max(particle.light_y.rgb, particle.light_z.rgb)) +
+              particle.cool.rgb + particle.light_z.rgb;
 #endif
     rgb *= max(particle.bloom.rgb, vec3(1.0));
     float most = max(max(rgb.r, rgb.g), rgb.b);
@@ -121,7 +129,7 @@ void main()
              gl_LocalInvocationID.x;
     if (i >= count)
         return;
-    make_billboard(entries[first + i]);
+    make_item(first + i);
     uvec2 box = uvec2(0u);
     if (-center.z > view.eye.w && particle.color.a > 0.0) {
         outline s = find_particle_outline();

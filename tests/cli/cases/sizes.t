@@ -64,7 +64,7 @@ $ for i in $(seq 64); do cp scenes/puff.png $i.png; done
 $ sed -i 's/.8, 4./[8, 8]/' textures.yaml; kiln render textures.yaml -q -o none --frames 0 --device software --technique raster=geometry 2>&1 | sed 's/; .* takes/; <device> takes/'
 1|kiln: the atlases have 4096 cells together; <device> takes at most 2048
 $ sed -i 's/1.png,/1.png, 2.png,/' textures.yaml; kiln check textures.yaml
-2|textures.yaml:4:55: systems.s0.look.atlas: expected "builtin:fire", "builtin:flame", "builtin:tongue", "builtin:smoke", "builtin:puff", "builtin:spark", "builtin:star", "builtin:drop", "builtin:splash", "builtin:debris", or the path of an image or video file, from the scene's folder and inside it; or a list of 1 to 8 of these, found a list
+2|textures.yaml:4:55: systems.s0.look.atlas: expected "builtin:fire", "builtin:flame", "builtin:tongue", "builtin:smoke", "builtin:puff", "builtin:spark", "builtin:star", "builtin:drop", "builtin:splash", "builtin:debris", "builtin:trail", "builtin:band", or the path of an image or video file, from the scene's folder and inside it; or a list of 1 to 8 of these, found a list
 = 3
 
 Keys, 1024 a curve. Speeds and pulls are evaluated on the device, lives in drawing, too. Balls that collide have kernels
