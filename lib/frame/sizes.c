@@ -5,6 +5,7 @@
 #include <inttypes.h>
 
 #include "base/error.h"
+#include "scene/ribbon.h"
 #include "scene/work.h"
 
 /* The most that a scene may have for a technique of papers/. */
@@ -78,6 +79,9 @@ static bool check_device(const struct kiln_scene *scene, const struct kiln_techn
         int most;
     } rows[] = {
         {"particles at once", kiln_work_particles(scene), KILN_MAX_GL_PARTICLES},
+        {"parts of ribbons and other particles at once",
+         kiln_work_particles(scene) * (uint64_t)kiln_ribbon_most_parts(scene),
+         KILN_MAX_GL_PARTICLES},
         {"keys of lives", count_life_keys(scene), KILN_BLOCK_KEYS},
     };
     for (size_t i = 0; !on_host && i < sizeof rows / sizeof *rows; i++) {

@@ -25,7 +25,7 @@ enum kiln_shape {
     KILN_SHAPE_RIBBON, /* strips through the particles in the order of their births */
 };
 
-/* What a ribbon turns its face to. */
+/* Says what a ribbon turns its face to. */
 enum kiln_ribbon_facing {
     KILN_RIBBON_CAMERA,
     KILN_RIBBON_NORMAL, /* the look's axis */

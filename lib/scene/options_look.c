@@ -118,28 +118,28 @@ TABLE(sphere) = {
 };
 
 TABLE(taper) = {
-    {ROW(LOOK, "tail", number, ribbon.taper[0], "0",
+    {ROW(IF_RIBBON, "tail", number, ribbon.taper[0], "0",
          "Factor on the width at the end of the oldest particles."),
      LIMITS(KILN_PLAIN, 0, 100)},
-    {ROW(LOOK, "head", number, ribbon.taper[1], "1",
+    {ROW(IF_RIBBON, "head", number, ribbon.taper[1], "1",
          "Factor on the width at the end of the youngest particles."),
      LIMITS(KILN_PLAIN, 0, 100)},
     END,
 };
 
 TABLE(ribbon) = {
-    CHOICE(LOOK, "facing", ribbon.facing, ribbon_facings, "camera",
+    CHOICE(IF_RIBBON, "facing", ribbon.facing, ribbon_facings, "camera",
            "`camera` turns the face of a ribbon to the eye. `normal` turns it to look.axis: the "
            "ribbon lies in a plane at right angles to it where its particles do."),
-    INTEGER(LOOK, "smooth", ribbon.smooth, 1, KILN_RIBBON_MOST_SMOOTH, "4",
+    INTEGER(IF_RIBBON, "smooth", ribbon.smooth, 1, KILN_RIBBON_MOST_SMOOTH, "4",
             "Parts of the curve between two particles. 1 joins them by straight segments."),
-    {ROW(LOOK, "texture", number, ribbon.texture_m, "0 m",
+    {ROW(IF_RIBBON, "texture", number, ribbon.texture_m, "0 m",
          "Length of the texture along the ribbon, which repeats it; it needs births by the metre. "
          "0 stretches the texture over the ribbon, from its youngest particle to the end of "
          "life, or from the first particle of a burst to the last."),
      LIMITS(KILN_METRES, 0, 1000)},
-    GROUP(LOOK, "taper", taper, "How the width changes along a ribbon, besides look.size."),
-    {ROW(LOOK, "gap", number, ribbon.gap_m, "0 m",
+    GROUP(IF_RIBBON, "taper", taper, "How the width changes along a ribbon, besides look.size."),
+    {ROW(IF_RIBBON, "gap", number, ribbon.gap_m, "0 m",
          "A ribbon is cut between particles that are farther from each other; 0 never cuts it."),
      LIMITS(KILN_METRES, 0, FAR)},
     END,
@@ -198,8 +198,8 @@ PUBLIC_TABLE(kiln_options_look) = {
            "fire."),
     VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, DRAWN(28), "0.5 m",
           "Edge length of a billboard, width of a ribbon, diameter of a sphere, longest edge of a "
-          "mesh. A billboard "
-          "that is thinner than a pixel is drawn a pixel wide, and fainter by the same factor."),
+          "mesh. A billboard that is thinner than a pixel is drawn a pixel wide, and fainter by "
+          "the same factor."),
     RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, BIRTH(29), "1",
           "Factor on size, chosen at random for each particle."),
     VALUE(IF_FORMED, "width", width, KILN_PLAIN, 0, 1000, DRAWN(111), "1",
@@ -212,10 +212,8 @@ PUBLIC_TABLE(kiln_options_look) = {
         LOOK, "shape", shape, shapes, "billboard",
         "`billboard` draws the texture on a quad. `point` and `line` draw a plain colour without a "
         "texture. `ribbon` draws strips through the particles in the order of their births, as "
-        "wide as "
-        "their size. `sphere` and `mesh` are opaque, lit like the backdrop, and become smaller "
-        "where "
-        "opacity and fade would make them transparent."),
+        "wide as their size. `sphere` and `mesh` are opaque, lit like the backdrop, and become "
+        "smaller where opacity and fade would make them transparent."),
     {ROW(IF_IT_LIES, "facing", facing, facing, "screen",
          "How a billboard is turned. `screen`, `viewplane` and `velocity` are parallel to the "
          "picture. `screen` is upright in the picture, `viewplane` is upright in the world, and "
@@ -230,7 +228,7 @@ PUBLIC_TABLE(kiln_options_look) = {
     GROUP(LOOK, "point", point, "How points look."),
     GROUP(LOOK, "line", line, "How lines look."),
     GROUP(LOOK, "sphere", sphere, "How spheres look."),
-    GROUP(LOOK, "ribbon", ribbon, "How ribbons look."),
+    GROUP(IF_RIBBON, "ribbon", ribbon, "How ribbons look."),
     GROUP(LOOK, "mesh", mesh,
           "How meshes look. All of them are instances of one mesh from a file."),
     VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, DRAWN(31), "0 s",

@@ -73,6 +73,12 @@ unsigned kiln_row_if_it_lies(const void *scene, const void *look)
     return ((const struct kiln_look *)look)->facing.way == KILN_FACING_SURFACE ? BOTH : NEITHER;
 }
 
+unsigned kiln_row_if_ribbon(const void *scene, const void *look)
+{
+    (void)scene;
+    return ((const struct kiln_look *)look)->shape == KILN_SHAPE_RIBBON ? NEITHER : 0;
+}
+
 unsigned kiln_row_if_formed(const void *scene, const void *look)
 {
     (void)scene;

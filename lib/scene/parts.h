@@ -26,8 +26,10 @@ unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look);
 unsigned kiln_row_if_it_paints(const void *scene, const void *look);
 unsigned kiln_row_if_it_lies(const void *scene, const void *look);
 
-/* Returns the bit of the hash if a look has keys that older versions lack, and otherwise 0. */
+/* Return the bit of the hash if a look uses keys that older versions lack, and otherwise 0, so that
+ * other scenes keep their hashes. */
 unsigned kiln_row_if_formed(const void *scene, const void *look);
+unsigned kiln_row_if_ribbon(const void *scene, const void *look);
 unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object);
 unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
@@ -94,6 +96,7 @@ unsigned kiln_row_if_seed_is_pinned(const void *scene, const void *system);
 #define IF_IT_PAINTS             kiln_row_if_it_paints
 #define IF_IT_LIES               kiln_row_if_it_lies
 #define IF_FORMED                kiln_row_if_formed
+#define IF_RIBBON                kiln_row_if_ribbon
 #define IF_PARTICLES_HIT_OBJECT  kiln_row_if_particles_hit_object
 #define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 #define IF_SEED_IS_PINNED        kiln_row_if_seed_is_pinned

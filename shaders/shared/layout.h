@@ -182,8 +182,9 @@ struct kiln_force_params {
 #define THEN_STOP   2u
 #define THEN_STICK  3u
 
-/* What records of a system keep: of the dead serial and birth, by which children know their looks;
- * of those that rest the normal of their surface, by which they are drawn, in place of a heading.
+/* Bits that say what records of a system keep: of the dead serial and birth, by which children know
+ * their looks; of those that rest the normal of their surface, by which they are drawn, in place of
+ * a heading.
  */
 #define FAMILY_KEEPS_REMAINS 1u
 #define FAMILY_KEEPS_NORMALS 2u

@@ -59,10 +59,9 @@ REAL_FN S(ribbon_place) ribbon_place_at(S(ribbon_points) p, real part, bool stra
 {
     real3 way = real3_sub(p.to, p.from);
     real length = real_sqrt(real3_dot(way, way));
-    real3 begins =
-        ribbon_direction(p.before, p.from, p.to, p.has_before, truth_not(length < 0.0f), straight);
-    real3 ends =
-        ribbon_direction(p.from, p.to, p.after, truth_not(length < 0.0f), p.has_after, straight);
+    truth always = length >= 0.0f;
+    real3 begins = ribbon_direction(p.before, p.from, p.to, p.has_before, always, straight);
+    real3 ends = ribbon_direction(p.from, p.to, p.after, always, p.has_after, straight);
     S(ribbon_place) place;
     truth first = part <= 0.0f, last = part >= 1.0f;
     if (straight) {
@@ -100,7 +99,7 @@ REAL_FN S(ribbon_line) ribbon_line_through(S(picture_point) p, real x, real y)
     return line;
 }
 
-/* Where two parts of a ribbon meet: the same bits for both of them. */
+/* The place where two parts of a ribbon meet, with the same bits for both of them. */
 struct ribbon_joint {
     S(picture_point) middle;
     S(ribbon_line) line; /* the joint; the ribbon goes on where distances from it are positive */

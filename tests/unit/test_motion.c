@@ -335,6 +335,7 @@ static void every_row_tells_the_truth(void **state)
         /* A row of the view may change the state by way of another row: rate: auto. */
         const bool looks = seen->row->parts == kiln_row_look ||
                            seen->row->parts == kiln_row_if_formed ||
+                           seen->row->parts == kiln_row_if_ribbon ||
                            seen->row->parts == kiln_row_if_light_is_attached;
         const bool moves = !looks && seen->row->parts != kiln_row_view &&
                            seen->row->parts != kiln_row_if_camera_is_attached;

@@ -127,8 +127,8 @@ static void forget_traces(struct traces *traces)
         memset(traces->blocks[simd], 0x5a, traces->count * sizeof *traces->all);
 }
 
-/* What all systems are stepped with, and the particles of a system: before its step, and after it
- * in blocks. */
+/* Holds what all systems are stepped with, and the particles of a system: before its step, and
+ * after it in blocks. */
 struct run {
     const struct kiln_sim_params *params;
     const float4 *words, *pushes, *planes;

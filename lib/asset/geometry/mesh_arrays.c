@@ -15,8 +15,7 @@ struct kiln_mesh_result *kiln_mesh_result_create(bool large_pages)
         mmap(NULL, sizeof *result, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (result == MAP_FAILED)
         return NULL;
-    /* Where the kernel has no large pages, small ones do. */
-    if (large_pages)
+    if (large_pages) /* small ones do where the kernel has none */
         (void)madvise(result, sizeof *result, MADV_HUGEPAGE);
     return result;
 }

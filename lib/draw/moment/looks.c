@@ -280,7 +280,7 @@ static uint4 ribbon_of(const struct kiln_scene *scene, uint32_t index)
         textures = high << 16 | exact_uint((float)floor((part - high) * 65536.0));
     }
     return (uint4){first_record(scene, index) | (ribbon->smooth - 1) << 26,
-                   system->capacity | flags, kiln_ribbon_run(system), (uint32_t)textures};
+                   system->capacity | flags, kiln_ribbon_run(system), textures};
 }
 
 /* Returns `values` of a look but for its first word: where the records of its parents are. */

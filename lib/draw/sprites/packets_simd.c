@@ -60,7 +60,8 @@ SIMD vi put_depths(struct packet *packet, const struct kiln_sprite *s,
                    const struct kiln_sprite_extra *extra, float x, float y, vi drawn)
 {
     if (s->shade >= KILN_SHADES) {
-        const struct ribbon_pixels ribbon = ribbon_at(s, &extra->ribbon, vf_count() + x, vf_all(y));
+        const struct ribbon_strip strip = ribbon_strip_of(s, &extra->ribbon);
+        const struct ribbon_pixels ribbon = ribbon_at(&strip, vf_count() + x, vf_all(y));
         packet->depths[0] = depth_word(ribbon.depth, drawn);
         packet->depths[1] = depth_word(ribbon.depth, vi_all(0));
         packet->thick = false;

@@ -17,20 +17,33 @@ SIMD vf distance_from(const float line[3], vf x, vf y)
     return line[0] * x + (line[1] * y + line[2]);
 }
 
-/* Returns what of a pixel's width a distance of 1 px from a line is. */
+/* Holds what all pixels of a part of a ribbon share. The first index is 0 for the joint at which it
+ * begins and 1 for that at which it ends. */
+struct ribbon_strip {
+    const struct kiln_sprite *s;
+    const struct kiln_ribbon_extra *r;
+    float widths, joint_widths[2]; /* of a pixel, in a px across it and along it from the joints */
+    float slant[2], beyond[2];     /* how its corners lie: slant * across + beyond, px */
+};
+
+/* Returns how many widths of a pixel lie in a px away from a line. */
 static inline float widths_a_pixel(const float line[3])
 {
     return 1.0f / (fabsf(line[0]) + fabsf(line[1]));
 }
 
-/* Returns whether pixels lie no farther beyond a joint's middle, along the ribbon, than its corners
- * may. from: their distances from the joint, px; across: those from the middle line. */
-SIMD vi are_near_joint(const float joint[3], const float middle[3], float half, vf from, vf across,
-                       float sign)
+SIMD struct ribbon_strip ribbon_strip_of(const struct kiln_sprite *s,
+                                         const struct kiln_ribbon_extra *r)
 {
-    const float turn = joint[0] * middle[1] - joint[1] * middle[0];
-    const float slant = joint[0] * middle[0] + joint[1] * middle[1];
-    return from - sign * slant * across >= -RIBBON_CORNER * half * turn;
+    struct ribbon_strip strip = {.s = s, .r = r, .widths = widths_a_pixel(r->middle)};
+    for (int i = 0; i < 2; i++) {
+        const float *joint = s->joints[i], sign = i == 0 ? 1.0f : -1.0f;
+        const float turn = joint[0] * r->middle[1] - joint[1] * r->middle[0];
+        strip.joint_widths[i] = widths_a_pixel(joint);
+        strip.slant[i] = sign * (joint[0] * r->middle[0] + joint[1] * r->middle[1]);
+        strip.beyond[i] = -RIBBON_CORNER * r->half_px[i] * turn;
+    }
+    return strip;
 }
 
 /* Holds what a part of a ribbon is at a vector of pixels. */
@@ -41,9 +54,23 @@ struct ribbon_pixels {
     vi inside;
 };
 
-SIMD struct ribbon_pixels ribbon_at(const struct kiln_sprite *s, const struct kiln_ribbon_extra *r,
-                                    vf x, vf y)
+/* Narrows pixels to those that lie on the inner side of a joint. from: their distances from it, px;
+ * across: those from the middle line; open: the ribbon goes no farther, and its end is filtered.
+ * Elsewhere pixels lie no farther beyond the joint's middle than its corners may. */
+SIMD void meet_joint(const struct ribbon_strip *strip, int joint, bool open, vf from, vf across,
+                     struct ribbon_pixels *p)
 {
+    p->inside &= from - strip->slant[joint] * across >= strip->beyond[joint];
+    if (open)
+        p->cover *= vf_clamp01(from * strip->joint_widths[joint] + 0.5f);
+    else
+        p->inside &= joint == 0 ? from >= 0.0f : from > 0.0f;
+}
+
+SIMD struct ribbon_pixels ribbon_at(const struct ribbon_strip *strip, vf x, vf y)
+{
+    const struct kiln_sprite *s = strip->s;
+    const struct kiln_ribbon_extra *r = strip->r;
     const vf zero = vf_all(0.0f);
     const vf from = distance_from(s->joints[0], x, y), to = -distance_from(s->joints[1], x, y);
     const vf across = distance_from(r->middle, x, y);
@@ -58,17 +85,10 @@ SIMD struct ribbon_pixels ribbon_at(const struct kiln_sprite *s, const struct ki
     if (s->flags & KILN_SPRITE_REPEATS)
         p.along -= vf_floor(p.along);
     p.across = 0.5f + 0.5f * across / half;
-    p.cover = vf_clamp01((half - vf_abs(across)) * widths_a_pixel(r->middle) + 0.5f);
-    p.inside = are_near_joint(s->joints[0], r->middle, r->half_px[0], from, across, 1.0f) &
-               are_near_joint(s->joints[1], r->middle, r->half_px[1], to, across, -1.0f);
-    if (s->flags & KILN_SPRITE_BEGINS)
-        p.cover *= vf_clamp01(from * widths_a_pixel(s->joints[0]) + 0.5f);
-    else
-        p.inside &= from >= 0.0f;
-    if (s->flags & KILN_SPRITE_ENDS)
-        p.cover *= vf_clamp01(to * widths_a_pixel(s->joints[1]) + 0.5f);
-    else
-        p.inside &= to > 0.0f;
+    p.cover = vf_clamp01((half - vf_abs(across)) * strip->widths + 0.5f);
+    p.inside = ~(vi){0};
+    meet_joint(strip, 0, (s->flags & KILN_SPRITE_BEGINS) != 0, from, across, &p);
+    meet_joint(strip, 1, (s->flags & KILN_SPRITE_ENDS) != 0, to, across, &p);
     p.inside &= p.cover > 0.0f;
     return p;
 }

@@ -117,8 +117,8 @@ struct kiln_sprite_pass {
 };
 
 /* Makes the sprites of draw entries, and their extras. parts: which part of its segment each entry
- * of a ribbon is, or NULL if there are none. Calls kiln_cells_request for their
- * cells. Invisible sprites touch no pixels (x_from = x_to). */
+ * of a ribbon is, or NULL if there are none. Calls kiln_cells_request for their cells. Invisible
+ * sprites touch no pixels (x_from = x_to). */
 typedef void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries,
                                const uint8_t *parts, size_t count, struct kiln_sprites to);
 

@@ -36,47 +36,43 @@ SIMD vi are_there(const struct vf_particles *p, vu serials)
     return (vi)(p->serial == serials) & ((vi)(p->birth & KILN_PARTICLE_ALIVE) != 0);
 }
 
-/* Finds the living parent of one particle whose later siblings are not born yet. Returns false if
- * there is none. */
+/* Finds the place of the living parent of one particle whose later siblings are not born yet.
+ * Returns false if there is none. */
 static bool find_parent(const struct kiln_particle *records, const struct kiln_draw_look *look,
-                        uint32_t slot, uint32_t serial, float place[3])
+                        uint32_t slot, uint32_t serial, float3 *place)
 {
-    const uint32_t run = look->ribbon.z;
-    for (uint32_t i = 1; i < run - serial % run; i++) {
+    const uint32_t run = look->ribbon.z, number = serial % run;
+    const struct kiln_particle parent = records[LOOK_PARENT_RECORD(look->values, serial)];
+    if (number == run - 1 || !particle_is_alive(parent) || parent.position_serial.w != serial / run)
+        return false;
+    for (uint32_t i = 1; i < run - number; i++) {
         const struct kiln_particle *sibling = &records[slot + i];
         if (particle_is_alive(*sibling) && sibling->position_serial.w == serial + i)
             return false;
     }
-    const struct kiln_particle parent = records[LOOK_PARENT_RECORD(look->values, serial)];
-    if (!particle_is_alive(parent) || parent.position_serial.w != serial / run)
-        return false;
-    const float3 at = particle_position(parent);
-    place[0] = at.x;
-    place[1] = at.y;
-    place[2] = at.z;
+    *place = particle_position(parent);
     return true;
 }
 
-/* Joins particles whose ribbons go on to their parents, of lanes without a next particle. */
-static void join_parents(const struct sprite_lanes *p, struct ribbon_lanes *r, vi lanes)
+/* Finds the parents that the ribbons of some lanes go on to. slots, serials: of their particles.
+ * Returns which lanes have one, and puts its place there. */
+static vi join_parents(const struct sprite_lanes *p, vi slots, vu serials, vi lanes,
+                       struct vf3 *places)
 {
     vi joined = vi_all(0);
+    if ((p->look->ribbon.y & LOOK_RIBBON_JOINS) == 0 || !any(lanes))
+        return joined;
     for (int i = 0; i < LANES; i++) {
-        const uint32_t serial = p->record.serial[i];
-        float place[3];
-        if (!lanes[i] || serial % p->look->ribbon.z == p->look->ribbon.z - 1 ||
-            !find_parent(p->pass->records, p->look, (uint32_t)p->slots[i], serial, place))
+        float3 place;
+        if (!lanes[i] ||
+            !find_parent(p->pass->records, p->look, (uint32_t)slots[i], serials[i], &place))
             continue;
         joined[i] = -1;
-        r->to.position.x[i] = place[0];
-        r->to.position.y[i] = place[1];
-        r->to.position.z[i] = place[2];
-        r->to.serial[i] = serial + 1;
-        r->to.birth[i] = p->record.birth[i];
-        r->to.stopped[i] = 0;
-        r->to_slots[i] = p->slots[i];
+        places->x[i] = place.x;
+        places->y[i] = place.y;
+        places->z[i] = place.z;
     }
-    r->is_joined = joined;
+    return joined;
 }
 
 /* Returns which of two places lie no farther from each other than a look's longest segment. */
@@ -107,31 +103,19 @@ static void find_segments(struct sprite_lanes *p, struct ribbon_lanes *r)
     r->before = read_records(pass->records, slots_beside(look, p->slots, -1));
     r->to = read_records(pass->records, r->to_slots);
     r->after = read_records(pass->records, slots_beside(look, r->to_slots, 1));
-    vi goes_on = are_there(&r->to, serial + 1) & ~last;
-    r->is_joined = vi_all(0);
-    if ((look->ribbon.y & LOOK_RIBBON_JOINS) != 0 && any(p->visible & ~goes_on & ~last))
-        join_parents(p, r, p->visible & ~goes_on);
-    const vi cut = ~are_near(p, p->record.position, r->to.position);
-    vi has_after = are_there(&r->after, serial + 2) & goes_on & ~next_is_last & ~r->is_joined &
-                   are_near(p, r->to.position, r->after.position);
-    p->visible &= (goes_on | r->is_joined) & ~cut;
+    const vi goes_on = are_there(&r->to, serial + 1) & ~last;
+    r->is_joined = join_parents(p, p->slots, serial, p->visible & ~goes_on, &r->to.position);
+    r->to.serial = serial + 1;
+    r->to.birth = (vu)vi_select(r->is_joined, (vi)p->record.birth, (vi)r->to.birth);
+    r->to.stopped &= ~r->is_joined;
+    r->to_slots = vi_select(r->is_joined, p->slots, r->to_slots);
+    p->visible &= (goes_on | r->is_joined) & are_near(p, p->record.position, r->to.position);
     r->points.has_before = are_there(&r->before, serial - 1) & ~first &
                            are_near(p, r->before.position, p->record.position);
-    if ((look->ribbon.y & LOOK_RIBBON_JOINS) !=
-        0) { /* the next segment may be that to the parent */
-        vi lanes = p->visible & ~has_after & ~r->is_joined & ~next_is_last;
-        struct sprite_lanes next = *p;
-        struct ribbon_lanes joined = *r;
-        next.record = r->to;
-        next.slots = r->to_slots;
-        if (any(lanes))
-            join_parents(&next, &joined, lanes);
-        lanes &= joined.is_joined & are_near(p, r->to.position, joined.to.position);
-        if (any(lanes)) {
-            r->after.position = vf3_select(lanes, joined.to.position, r->after.position);
-            has_after |= lanes;
-        }
-    }
+    vi has_after = are_there(&r->after, serial + 2) & goes_on & ~next_is_last;
+    has_after |= join_parents(p, r->to_slots, serial + 1, p->visible & goes_on & ~has_after,
+                              &r->after.position);
+    has_after &= are_near(p, r->to.position, r->after.position);
     r->points.before = view_place(pass->view, r->before.position);
     r->points.from = p->center;
     r->points.to = view_place(pass->view, r->to.position);
@@ -150,12 +134,11 @@ struct ribbon_end {
     vf base[3], slope[3];
 };
 
-/* Computes the ends of segments at the particles of `p`, whose colours stay in it. number: of the
- * particles in their ribbons. */
+/* Computes the ends of segments at the particles of `p`, which have faded; their colours stay in
+ * it. number: of the particles in their ribbons. */
 static void find_end(struct sprite_lanes *p, vi number, struct ribbon_end *end)
 {
     const uint32_t run = p->look->ribbon.z;
-    p->shape = look_row(p, KILN_LOOK_SHAPE);
     p->spread = look_row(p, KILN_LOOK_SPREAD);
     p->turn = look_row(p, KILN_LOOK_TURN);
     p->cool = look_row(p, KILN_LOOK_COOL);

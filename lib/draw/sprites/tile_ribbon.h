@@ -95,6 +95,7 @@ static void draw_ribbon(struct kiln_tile *tile, const struct kiln_cells_content 
     struct kiln_sprite plain = *s; /* batch.rim has the opacity, which changes along the ribbon */
     plain.opacity = 1.0f;
     d.s = &plain;
+    const struct ribbon_strip strip = ribbon_strip_of(s, &extra->ribbon);
     struct batch batch;
     for (int row = box.y_from; row < box.y_to; row += UNITS) {
         int from = box.x_to, to = box.x_from;
@@ -105,7 +106,7 @@ static void draw_ribbon(struct kiln_tile *tile, const struct kiln_cells_content 
         const vf y = vf_units_number() + ((float)(tile->y + row) + 0.5f);
         for (int column = from; column < to; column += LANES / UNITS) {
             const vf x = vf_units_count(0) + ((float)(tile->x + column) + 0.5f);
-            const struct ribbon_pixels p = ribbon_at(s, &extra->ribbon, x, y);
+            const struct ribbon_pixels p = ribbon_at(&strip, x, y);
             batch.inside[0] = y < (float)(tile->y + box.y_to);
             if (!any(batch.inside[0] & p.inside))
                 continue;

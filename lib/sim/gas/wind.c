@@ -9,8 +9,8 @@
 #include "sim/gas/frames.h"
 #include "sim/world/force_params.h"
 
-/* Where a place lies among faces along an axis: `low` is the face at it or below it, `next` is 1,
- * or 0 at the last face, and `part` is how far it is on the way from the one to the other. */
+/* Says where a place lies among faces along an axis: `low` is the face at it or below it, `next` is
+ * 1, or 0 at the last face, and `part` is how far it is on the way from the one to the other. */
 struct between {
     int32_t low, next;
     float part;

@@ -34,14 +34,14 @@ bool is_there(kiln_particle p, uint serial)
 bool find_parent(uint system, uint slot, uint serial, out vec3 place)
 {
     uint run = looks[system].ribbon.z, number = serial % run;
-    if (number == run - 1u)
+    kiln_particle parent = records[LOOK_PARENT_RECORD(looks[system].values, serial)];
+    place = particle_position(parent);
+    if (number == run - 1u || !is_there(parent, serial / run))
         return false;
     for (uint i = 1u; i < run - number; i++)
         if (is_there(records[slot + i], serial + i))
             return false;
-    kiln_particle parent = records[LOOK_PARENT_RECORD(looks[system].values, serial)];
-    place = particle_position(parent);
-    return is_there(parent, serial / run);
+    return true;
 }
 
 bool is_near(vec3 a, vec3 b, float gap)
@@ -49,7 +49,7 @@ bool is_near(vec3 a, vec3 b, float gap)
     return gap <= 0.0 || dot(a - b, a - b) <= gap * gap;
 }
 
-/* What a ribbon is at one of its particles. */
+/* Holds what a ribbon is at one of its particles. */
 struct ribbon_end {
     float half_width, along, opacity;
     vec3 hot, cool, bloom;

@@ -1,10 +1,10 @@
 A scene comes through standard input: `-` is its name, and its files lie below the working directory.
 
 $ cd scenes && kiln check - <tiny.yaml | diff - <(kiln check tiny.yaml) && cat tiny.yaml | kiln check --hash - && kiln check --hash /dev/stdin <tiny.yaml && kiln check --hash <(cat tiny.yaml) && kiln check --hash tiny.yaml
-1|71d6e81bdb79b20715fc0807283fcf2fc5f29e958b111c33c1c7cd54ff1a1020
-1|71d6e81bdb79b20715fc0807283fcf2fc5f29e958b111c33c1c7cd54ff1a1020
-1|71d6e81bdb79b20715fc0807283fcf2fc5f29e958b111c33c1c7cd54ff1a1020
-1|71d6e81bdb79b20715fc0807283fcf2fc5f29e958b111c33c1c7cd54ff1a1020
+1|61f7a9567872296c542203e240af47c9fac1afc1f0618e3f85e06e11d78bb4ee
+1|61f7a9567872296c542203e240af47c9fac1afc1f0618e3f85e06e11d78bb4ee
+1|61f7a9567872296c542203e240af47c9fac1afc1f0618e3f85e06e11d78bb4ee
+1|61f7a9567872296c542203e240af47c9fac1afc1f0618e3f85e06e11d78bb4ee
 $ kiln check - <scenes/tiny.yaml
 2|standard input:19:19: systems.smoke.look.atlas: cannot open 'puff.png': No such file or directory; a path starts at the scene's folder, or at the asset root that is given instead
 = 3
